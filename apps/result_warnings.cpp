@@ -345,7 +345,13 @@ void warn_of_edges_without_length(const Settings& s, const TriMesh& mesh, RunRec
 
 void warn_of_dropped_creases(RunRecord& run) {
   const CreaseCounts& c = run.result->creases;
-  if (run.result->steps_smoothed)
+  if (run.result->steps == MaskSteps::resolved)
+    run.warnings.push_back(
+        {"steps_resolved",
+         fmt::format("{}: the surface of a binary mask, whose steps the length resolves and keeps as edges; "
+                     "--feature-angle off smooths them, and so does a longer --length",
+                     run.input.path)});
+  if (run.result->steps == MaskSteps::smoothed)
     run.warnings.push_back(
         {"steps_smoothed",
          fmt::format(

@@ -98,14 +98,26 @@ TEST(PreservingRemesh, TheStepsOfAMaskAreNoEdges) {
     RemeshOptions options = options_for(mode);
     const test::Outcome o = preserved(test::moved(t), options);
     const ResultMeasures& m = *o.result.measures;
-    EXPECT_TRUE(o.result.steps_smoothed);
+    EXPECT_EQ(o.result.steps, MaskSteps::smoothed);
     EXPECT_TRUE(m.preservation.holds());
     EXPECT_GT(m.quality.min_angle.min, mode == ConnectivityMode::fixed ? 22 : 35);
     EXPECT_GT(m.quality.min_angle.min, 1.3 * m.input_quality.min_angle.min);
     EXPECT_LT(std::max(m.deviation.to_reference.max, m.deviation.from_reference.max), 1) << "cell";
     EXPECT_NEAR(m.deviation.volume_change.value(), 0, .01);
     options.constraints.features.drops_noise = false;
-    EXPECT_FALSE(preserved(t, options).result.steps_smoothed);
+    EXPECT_EQ(preserved(t, options).result.steps, MaskSteps::none);
+  }
+}
+
+TEST(PreservingRemesh, StepsThatTheLengthResolvesAreKeptUnlessAnglesAreOff) {
+  const test::Triangles t = test::marched_mask(5, [](const Vec3& x) { return x.norm() < 3.7; });
+  for (const double angle : {40., 180.}) {
+    RemeshOptions options = options_for(ConnectivityMode::adapt);
+    options.constraints.features.angle = angle;
+    TriMesh mesh = test::with_length(t, .6 * test::natural(t));
+    const MemoryOrder memory_order = find_memory_order(mesh);
+    const RemeshResult result = preserving_remesh(mesh, memory_order, options, {}, {});
+    EXPECT_EQ(result.steps, angle < 180 ? MaskSteps::resolved : MaskSteps::smoothed);
   }
 }
 

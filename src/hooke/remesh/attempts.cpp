@@ -88,8 +88,12 @@ AttemptMaker::AttemptMaker(const TriMesh& mesh, const MemoryOrder& memory_order,
     }
   }
   if (preservation_.max_distance) options.filter.max_distance = *preservation_.max_distance;
-  is_mask_ = smooths_steps && options.constraints.features.drops_noise &&
-             options.constraints.hard_edges.empty() && is_marched_mask_at_lengths();
+  const bool may_smooth =
+      smooths_steps && options.constraints.features.drops_noise && options.constraints.hard_edges.empty();
+  const bool is_mask = may_smooth && is_marched_mask_at_any_length();
+  is_mask_ = is_mask && (options.constraints.features.angle >= 180 ||
+                         is_marched_mask(input_.points, input_.adjacency, lengths.of_vertices));
+  resolves_steps_ = is_mask && !is_mask_;
   const bool is_noise = is_mask_ || (options.constraints.features.drops_noise &&
                                      is_staircase(input_.points, input_.adjacency, lengths.of_vertices));
   if (is_noise) preservation_.feature_angle = 180;
@@ -183,10 +187,7 @@ std::vector<int> AttemptMaker::vertices_of_worse_polygons(const Attempt& a, doub
       hooke::vertices_of_worse_polygons(vertex_points(a.mesh), vertex_points(mesh_), *polygons_, margin));
 }
 
-/// Is the input made of a binary mask? Without creases no length resolves its steps.
-bool AttemptMaker::is_marched_mask_at_lengths() const {
-  if (options.constraints.features.angle < 180)
-    return is_marched_mask(input_.points, input_.adjacency, lengths.of_vertices);
+bool AttemptMaker::is_marched_mask_at_any_length() const {
   const std::vector<double> any(lengths.of_vertices.size(), std::numeric_limits<double>::infinity());
   return is_marched_mask(input_.points, input_.adjacency, any);
 }
@@ -226,8 +227,9 @@ Attempt AttemptMaker::run() const {
   a.lengths = lengths;
   a.made_faces = static_cast<double>(a.mesh.n_faces());
   vertex_points(a.mesh) = as_written(vertex_points(a.mesh));
+  if (resolves_steps_) a.result.steps = MaskSteps::resolved;
   if (is_mask_) {
-    a.result.steps_smoothed = smoothed_ != vertex_points(mesh_);
+    if (smoothed_ != vertex_points(mesh_)) a.result.steps = MaskSteps::smoothed;
     a.result.creases.sharp = a.result.creases.dropped = steps_;
     a.result.input_points = vertex_points(mesh_);
   }
@@ -251,6 +253,7 @@ std::optional<Attempt> AttemptMaker::go_on(const Attempt& last) const {
       next.run->go_on(next.mesh, last.result, placed, points, lengths.of_vertices, lengths.shorter);
   if (!result) return std::nullopt;
   next.result = std::move(*result);
+  if (resolves_steps_) next.result.steps = MaskSteps::resolved;
   vertex_points(next.mesh) = as_written(vertex_points(next.mesh));
   next.lengths = lengths;
   next.result_of_run = next.run->results();

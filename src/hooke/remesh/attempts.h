@@ -138,7 +138,7 @@ class AttemptMaker {
   void place(int vertex, const Vec3& point, Attempt& attempt) const;
 
  private:
-  bool is_marched_mask_at_lengths() const;
+  bool is_marched_mask_at_any_length() const;
   void smooth_steps();
   void allow_for_rounding();
 
@@ -153,8 +153,9 @@ class AttemptMaker {
   double least_angle_ = 0;
   double least_mean_shape_ = 0;  // of the faces of the input
   const IntLists* polygons_;
-  double polygon_deviation_ = 0;  // of the input, degrees
-  bool is_mask_ = false;
+  double polygon_deviation_ = 0;    // of the input, degrees
+  bool is_mask_ = false;            // of a binary mask whose steps are smoothed
+  bool resolves_steps_ = false;     // of one whose steps the lengths resolve
   Mat3X smoothed_;                  // of a mask: the points that attempts start from, by the caller's id
   int steps_ = 0;                   // sharp edges of a mask
   double share_of_whole_ = 1;       // of the faces, where the input is a part

@@ -57,7 +57,7 @@ class PreservingRemesh {
     resolve_bends(start, best);
     if (!best.lengths.shorter.empty()) best.result.shortened = shorter_.count_in(best);
     if (!maker_.adapts() && vertex_points(best.mesh) == maker_.as_written(vertex_points(maker_.mesh())))
-      best.result.steps_smoothed = false;
+      best.result.steps = MaskSteps::none;
     return best;
   }
 
@@ -611,7 +611,8 @@ RemeshResult preserving_remesh(TriMesh& mesh, MemoryOrder memory_order, const Re
     return PreservingRemesh(maker).best();
   };
   Attempt best = best_attempt(true);
-  if (best.result.steps_smoothed && best.result.measures && !best.is_interrupted() && !best.keeps_promises())
+  if (best.result.steps == MaskSteps::smoothed && best.result.measures && !best.is_interrupted() &&
+      !best.keeps_promises())
     best = best_attempt(false);
   if (!options.map) best.result.map.clear();
   mesh = std::move(best.mesh);

@@ -61,13 +61,20 @@ enum class Rescue {
   kept_faces,  // faces of the input stay, in the modes `flip` and `adapt`
 };
 
+/// What became of the steps of a binary mask of which the input is made, see preserving_remesh().
+enum class MaskSteps {
+  none,      // it is not
+  resolved,  // they are kept as edges, as the target lengths resolve them
+  smoothed,
+};
+
 struct RemeshResult {
   StopReason reason = StopReason::stalled;
   std::vector<IterationRecord> iterations;
-  Mat3X input_points;           // of the input mesh, as reference for measures
-  MemoryOrder memory_order;     // of the resulting mesh
-  bool steps_smoothed = false;  // of a binary mask, see preserving_remesh()
-  bool near_regular = false;    // in mode `fixed`, see keep_near_regular()
+  Mat3X input_points;        // of the input mesh, as reference for measures
+  MemoryOrder memory_order;  // of the resulting mesh
+  MaskSteps steps = MaskSteps::none;
+  bool near_regular = false;  // in mode `fixed`, see keep_near_regular()
   int folded_before = 0;
   std::vector<int> folded_faces;  // folded against the surface, ids of the result
   CreaseCounts creases;

@@ -313,7 +313,7 @@ Json report_json(const RunRecord& run) {
     j["projection"]["not_landed"] = run.result->unprojected;
     j["held_back"] = run.result->limited_steps;
     j["near_regular"] = run.result->near_regular;
-    j["steps_smoothed"] = run.result->steps_smoothed;
+    j["steps_smoothed"] = run.result->steps == MaskSteps::smoothed;
   }
   j["features"] = creases_json(run);
   j["flips"] = flips_json(run);
