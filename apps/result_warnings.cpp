@@ -213,9 +213,16 @@ void warn_of_rescue(RunRecord& run) {
                       "{} of {} vertices were put back to where they were, with the faces of the input,",
                       count, run.result->vertex_limits.size())
                 : "it has the faces of the input";
-        return what +
-               " to keep its surface and the angles of its faces; --connectivity adapt, which makes new "
-               "vertices and triangles, can do more";
+        constexpr double margin = 1.2;
+        const double distance = run.result->refused_distance / run.deviation->diagonal;
+        return fmt::format(
+            "{} to keep its surface and the angles of its faces; {}--connectivity adapt, which makes new "
+            "vertices and triangles, can do more",
+            what,
+            distance > 0
+                ? fmt::format("--max-distance {:.2g}% allows what was {:.2g} % of the size away, and ",
+                              100 * margin * distance, 100 * distance)
+                : "");
       }
       case Rescue::kept_faces:
         return fmt::format(

@@ -83,14 +83,18 @@ TEST(VertexData, IsLinearInTheFaces) {
 }
 
 TEST(VertexData, LabelsAreThoseOfTheNearestCorner) {
-  const std::vector<Triangle> faces = {{0, 1, 2}};
-  for (const NumberType type : {NumberType::uint8, NumberType::int32}) {
-    const VertexData data = {{"label", type, {1, 5, 9}}, {"red", type, {1, 5, 9}}};
-    const std::vector<MapEntry> map = {
-        {-1, {0, Vec3(.4, .25, .35)}}, {-1, {0, Vec3(.2, .3, .5)}}, {-1, {0, Vec3(0, .5, .5)}}, {2, {}}};
+  const std::vector<Triangle> faces = {{0, 1, 2}, {3, 4, 5}, {3, 5, 6}};
+  const std::vector<MapEntry> map = {
+      {-1, {0, Vec3(.4, .25, .35)}}, {-1, {0, Vec3(.2, .3, .5)}}, {-1, {0, Vec3(0, .5, .5)}}, {2, {}}};
+  const std::vector<double> same = {1, 5, 9, 7, 7, 7, 7}, differ = {1, 5, 9, 3, 4, 5, 6};
+  const std::vector<double> nearest = {1, 9, 5, 9}, rounded = {5, 6, 7, 9};
+  for (const NumberType type : {NumberType::uint8, NumberType::int8, NumberType::uint16, NumberType::int32}) {
+    const bool is_byte = type <= NumberType::uint8;
+    const VertexData data = {{"label", type, same}, {"red", type, same}, {"q", type, differ}};
     const VertexData carried = interpolate(data, map, faces);
-    EXPECT_EQ(carried[0].values, (std::vector<double>{1, 9, 5, 9}));
-    EXPECT_EQ(carried[1].values, (std::vector<double>{5, 6, 7, 9}));
+    EXPECT_EQ(carried[0].values, nearest);
+    EXPECT_EQ(carried[1].values, rounded);
+    EXPECT_EQ(carried[2].values, is_byte ? rounded : nearest) << "brightness";
   }
 }
 

@@ -139,4 +139,25 @@ TEST(SmoothPatches, StepsAsLongAsEdgesAreNoRounding) {
   EXPECT_TRUE(has_facets(t));
 }
 
+/// Of low panels, pyramids and terraces: with few heights, or with folds in straight lines.
+TEST(SmoothPatches, ShallowReliefIsNoRounding) {
+  const auto relief = [](double (*height)(double x, double y)) {
+    test::Triangles t = test::grid(60, test::flat);
+    t.points.topRows(2) *= 60;
+    for (auto x : t.points.colwise()) x[2] = .1 * height(std::round(x[0]), std::round(x[1]));
+    return t;
+  };
+  const auto panels = [](double x, double y) { return std::fmod(x, 4) < 2 && std::fmod(y, 4) < 2 ? 1. : 0; };
+  const auto pyramids = [](double x, double y) {
+    return std::min(std::abs(std::remainder(x, 10)), std::abs(std::remainder(y, 10)));
+  };
+  const auto terraces = [](double x, double) {
+    return std::floor(x / 4) + std::clamp(std::fmod(x, 4) - 3, 0., 1.);
+  };
+  for (const test::Triangles& t : {relief(panels), relief(pyramids), relief(terraces)}) {
+    EXPECT_EQ(marked_faces(t), 0);
+    EXPECT_TRUE(has_facets(t));
+  }
+}
+
 }  // namespace hooke::smooth_patches_test

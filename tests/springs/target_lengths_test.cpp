@@ -142,11 +142,25 @@ TEST(LengthSpec, PartsThatAreAlikeHaveOneLength) {
   EXPECT_TRUE(UniformVector::are_equal(resolve_vertex_lengths({}, {}, t.points, test::connect(t))));
 }
 
-TEST(LengthSpec, APartWithoutAreaHasALength) {
-  test::Triangles point{Mat3X::Constant(3, 3, 7), {{0, 1, 2}}};
-  const test::Triangles t = test::both(test::sphere(2), point);
-  const std::vector<double> lengths = resolve_vertex_lengths({}, {}, t.points, test::connect(t));
-  EXPECT_NEAR(lengths.back(), 1e-3 * natural_length_of(t), 1e-12);
+TEST(LengthSpec, APartWithoutAreaHasTheLengthOfItsEdges) {
+  const auto length_beside_ball = [](const Mat3X& corners) {
+    const test::Triangles t = test::both(test::sphere(2), {corners, {{0, 1, 2}}});
+    return resolve_vertex_lengths({}, {}, t.points, test::connect(t)).back();
+  };
+  Mat3X line = Mat3X::Zero(3, 3);
+  line.row(0) << 5, 6, 7;
+  EXPECT_NEAR(length_beside_ball(line), .5 * 4 / 3, 1e-12);
+  EXPECT_NEAR(length_beside_ball(Mat3X::Constant(3, 3, 7)), 1e-3 * natural_length_of(test::sphere(2)), 1e-5);
+}
+
+TEST(LengthSpec, PiecesOfASurfaceThatWasCutOpenAreOnePart) {
+  test::Triangles left = test::grid(6, test::flat), right = test::grid(3, test::flat);
+  right.points.row(0).array() += 1;  // every other vertex of the left one is there too
+  const test::Triangles t = test::both(left, right);
+  EXPECT_TRUE(UniformVector::are_equal(resolve_vertex_lengths({}, {}, t.points, test::connect(t))));
+  right.points.row(0).array() += 1;
+  const test::Triangles apart = test::both(left, right);
+  EXPECT_FALSE(UniformVector::are_equal(resolve_vertex_lengths({}, {}, apart.points, test::connect(apart))));
 }
 
 TEST(TargetLengths, AreEvenIfNoFaceHasTwo) {

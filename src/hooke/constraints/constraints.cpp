@@ -4,27 +4,19 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <tuple>
 
+#include "hooke/core/lists.h"
 #include "hooke/geometry/triangle.h"
+#include "hooke/mesh/vertex_welding.h"
 #include "hooke/mesh/wedges.h"
 
 namespace hooke {
 
 std::vector<int> coincident_boundary_vertices(const Mat3X& points, const Adjacency& c) {
-  std::vector<int> boundary;
-  for (size_t e = 0; e < c.edges.size(); ++e)
-    if (c.is_boundary_edge(static_cast<int>(e))) boundary.push_back(c.edges[e][0]);
-  const auto coordinates = [&](int v) { return std::tuple(points(0, v), points(1, v), points(2, v)); };
-  std::ranges::sort(boundary, [&](int a, int b) { return coordinates(a) < coordinates(b); });
   std::vector<int> coincident;
-  for (size_t begin = 0, end = 0; begin < boundary.size(); begin = end) {
-    while (end < boundary.size() && coordinates(boundary[end]) == coordinates(boundary[begin])) ++end;
-    if (end - begin > 1)
-      coincident.insert(coincident.end(), boundary.begin() + static_cast<std::ptrdiff_t>(begin),
-                        boundary.begin() + static_cast<std::ptrdiff_t>(end));
-  }
-  std::ranges::sort(coincident);
+  for (const Edge& pair : coincident_boundary_pairs(points, c))
+    coincident.insert(coincident.end(), pair.begin(), pair.end());
+  sort_unique(coincident);
   return coincident;
 }
 

@@ -35,9 +35,16 @@ double nearest_value(const MapEntry& entry, const std::vector<double>& values,
   return values[faces[entry.position.face][static_cast<size_t>(corner)]];
 }
 
-/// Are the numbers of the channel labels or counts, between which there is nothing?
-bool has_labels(const VertexChannel& channel) {
-  return is_integer(channel.type) && std::ranges::find(colour_names, channel.name) == colour_names.end();
+/// Are the numbers of the channel labels, between which there is nothing? Those of one byte may be
+/// brightness: they are labels if they are equal at most sides of faces.
+bool has_labels(const VertexChannel& channel, const std::vector<Triangle>& faces) {
+  if (!is_integer(channel.type) || std::ranges::find(colour_names, channel.name) != colour_names.end())
+    return false;
+  if (channel.type != NumberType::uint8 && channel.type != NumberType::int8) return true;
+  std::size_t equal = 0;
+  for (const Triangle& t : faces)
+    for (std::size_t k = 0; k < 3; ++k) equal += channel.values[t[k]] == channel.values[t[(k + 1) % 3]];
+  return 2 * equal >= 3 * faces.size();
 }
 
 }  // namespace
@@ -65,7 +72,7 @@ VertexData interpolate(const VertexData& data, const std::vector<MapEntry>& map,
   for (const VertexChannel& channel : data) {
     VertexChannel& to = result.emplace_back(VertexChannel{channel.name, channel.type, {}});
     to.values.resize(map.size());
-    const auto at = has_labels(channel) ? nearest_value : value_at;
+    const auto at = has_labels(channel, faces) ? nearest_value : value_at;
     parallel_for(map.size(), 4096, [&](size_t begin, size_t end) {
       for (size_t v = begin; v < end; ++v) {
         const double value = at(map[v], channel.values, faces);

@@ -41,8 +41,9 @@ using ChannelList = std::vector<const VertexChannel*>;
 ChannelList channels_named(const VertexData& data, ChannelNames names);
 
 /// Interpolates all channels at the surface points of the map: linear in the faces, never beyond the values
-/// of their corners, colours in integers rounded. Other integers, which may be labels, are those of the
-/// nearest corner. Vertices on no face keep the value of their old vertex.
+/// of their corners, integers rounded. Integers that are labels are those of the corner with the greatest
+/// weight: all but colours, and but bytes that differ at most sides of faces. Vertices on no face keep the
+/// value of their old vertex.
 VertexData interpolate(const VertexData& data, const std::vector<MapEntry>& map,
                        const std::vector<Triangle>& faces);
 

@@ -1,6 +1,7 @@
 #include "hooke/mesh/smooth_patches.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -11,13 +12,15 @@
 namespace hooke {
 namespace {
 
-constexpr int many = 100;             // patches that are connected
-constexpr double little = .1;         // area, over the median of these
-constexpr double little_share = .05;  // minimum share of patches that have less
-constexpr double large = 20;          // area, over the median, beyond which it is a flat side
-constexpr double rounded_share = .5;  // minimum share of edges that turn by no more than rounding
-constexpr double max_step = .2;       // of coordinates, in mean edges; a grid has longer ones
-constexpr double min_step = 1e-3;     // below which they hardly turn faces
+constexpr int many = 100;                   // patches that are connected
+constexpr double little = .1;               // area, over the median of these
+constexpr double little_share = .05;        // minimum share of patches that have less
+constexpr double large = 20;                // area, over the median, beyond which it is a flat side
+constexpr double rounded_share = .5;        // minimum share of edges that turn by no more than rounding
+constexpr double straight_share = .8;       // maximum share of edges that go on straight with the same turn
+constexpr std::ptrdiff_t many_levels = 24;  // that a coordinate takes, at least; parts have few heights
+constexpr double max_step = .2;             // of coordinates, in mean edges; a grid has longer ones
+constexpr double min_step = 1e-3;           // below which they hardly turn faces
 
 /// Faces in one plane, connected; without faces unless the face with its number stands for it.
 struct Patch {
@@ -28,24 +31,33 @@ struct Patch {
 
 /// Connected patches without sharp edges.
 struct Group {
-  int polygons = 0;                          // of more than two faces
-  std::size_t edges = 0, rounded_edges = 0;  // between patches; those that turn by no more than rounding
+  int polygons = 0;  // of more than two faces
   std::vector<double> areas;
+  /// The edges between patches: all, those that turn by no more than rounding, and those that go on straight
+  /// with the same turn, as creases do and rounding seldom makes them.
+  std::size_t edges = 0, rounded_edges = 0, straight_edges = 0;
+  std::array<std::vector<long long>, 3> levels;  // of the vertices, where a coordinate has steps
 
-  bool is_rounded() const {
-    return std::ssize(areas) >= many &&
-           static_cast<double>(rounded_edges) >= rounded_share * static_cast<double>(edges);
+  bool is_rounded() {
+    const auto share_of_edges = [&](double share) { return share * static_cast<double>(edges); };
+    return std::ssize(areas) >= many && static_cast<double>(rounded_edges) >= share_of_edges(rounded_share) &&
+           static_cast<double>(straight_edges) <= share_of_edges(straight_share) &&
+           std::ranges::any_of(levels, [](std::vector<long long>& of_axis) {
+             std::ranges::sort(of_axis);
+             return std::unique(of_axis.begin(), of_axis.end()) - of_axis.begin() >= many_levels;
+           });
   }
 
   /// The area up to which patches are part of a smooth surface; 0 if none are.
   double max_area() {
-    if (polygons < many && !is_rounded()) return 0;
+    const bool rounded = is_rounded();
+    if (areas.empty() || (polygons < many && !rounded)) return 0;
     const auto middle = areas.begin() + std::ssize(areas) / 2;
     std::ranges::nth_element(areas, middle);
     const double median = *middle;
     const auto little_ones = std::ranges::count_if(areas, [&](double a) { return a < little * median; });
     const bool differ = static_cast<double>(little_ones) >= little_share * static_cast<double>(areas.size());
-    return differ || is_rounded() ? large * median : 0;
+    return differ || rounded ? large * median : 0;
   }
 };
 
@@ -75,10 +87,10 @@ double step_of(const Eigen::RowVectorXd& numbers, double least) {
   return std::any_of(numbers.begin(), numbers.end(), is_off) ? 0 : step;
 }
 
-/// The angle, in radians, by which rounding to multiples of these steps may turn the faces at an edge.
-class TurnsByRounding {
+/// What rounding of coordinates to multiples of a step makes of a surface.
+class Rounding {
  public:
-  TurnsByRounding(const Mat3X& points, const Adjacency& c) : points_(points), c_(c) {
+  Rounding(const Mat3X& points, const Adjacency& c) : points_(points), c_(c) {
     double mean = 0;
     for (const auto& [a, b] : c.edges) mean += (points.col(a) - points.col(b)).norm();
     mean /= static_cast<double>(c.edges.size());
@@ -88,22 +100,51 @@ class TurnsByRounding {
     }
   }
 
-  /// Does the surface turn by no more at the edge? It is none of the boundary.
-  bool explains(std::size_t edge) const {
-    if (steps_.isZero()) return false;
-    const auto& [a, b] = c_.edges[edge];
-    const double length = (points_.col(a) - points_.col(b)).norm();
-    Vec3 normals[2];
-    double most = 0;
-    for (std::size_t i = 0; i < 2; ++i) {
-      const Vec3 area = doubled_area_vector(points_, c_.faces[c_.edge_faces[edge][i]]);
-      normals[i] = area.normalized();
-      most += normals[i].cwiseAbs().dot(steps_) * length / area.norm();  // over the height
+  bool has_steps() const { return !steps_.isZero(); }
+
+  /// May it have turned the faces at this edge, which is none of the boundary, as much as they turn?
+  bool explains(int edge) const {
+    double most = 0;  // radians
+    for (const int f : c_.edge_faces[edge]) {
+      const Vec3 area = doubled_area_vector(points_, c_.faces[f]);
+      most += area.cwiseAbs().dot(steps_) * length(edge) / area.squaredNorm();  // step over height
     }
-    return std::atan2(normals[0].cross(normals[1]).norm(), normals[0].dot(normals[1])) <= most;
+    return turn(edge) <= most;
+  }
+
+  /// Does another edge go on straight at an end of this one, with the same turn?
+  bool is_straight(int edge) const {
+    constexpr double in_line = 1 - 1e-9, same = 1e-3;
+    const auto goes_on_at = [&](int v, int from) {
+      const Vec3 along = (points_.col(v) - points_.col(from)).normalized();
+      return std::ranges::any_of(c_.vertex_edges[v], [&](int e) {
+        const Vec3 way = (points_.col(c_.other_end(e, v)) - points_.col(v)).normalized();
+        return along.dot(way) > in_line && std::abs(turn(e) - turn(edge)) < same * turn(edge);
+      });
+    };
+    const auto& [a, b] = c_.edges[edge];
+    return goes_on_at(a, b) || goes_on_at(b, a);
+  }
+
+  void add_levels(int vertex, std::array<std::vector<long long>, 3>& levels) const {
+    for (int k = 0; k < 3; ++k)
+      if (steps_[k] > 0) levels[k].push_back(std::llround(points_(k, vertex) / steps_[k]));
   }
 
  private:
+  double length(int edge) const {
+    return (points_.col(c_.edges[edge][0]) - points_.col(c_.edges[edge][1])).norm();
+  }
+
+  /// By how much the surface turns at the edge, in radians.
+  double turn(int edge) const {
+    const auto& [left, right] = c_.edge_faces[edge];
+    if (right < 0) return 0;
+    const Vec3 n = doubled_area_vector(points_, c_.faces[left]),
+               m = doubled_area_vector(points_, c_.faces[right]);
+    return std::atan2(n.cross(m).norm(), n.dot(m));
+  }
+
   const Mat3X& points_;
   const Adjacency& c_;
   Vec3 steps_ = Vec3::Zero();
@@ -136,14 +177,22 @@ std::vector<char> faces_in_smooth_patches(const Mat3X& points, const Adjacency& 
     group.polygons += patches[f].faces > 2;
     group.areas.push_back(patches[f].area);
   }
-  const TurnsByRounding rounding(points, c);
-  for (std::size_t e = 0; e < flat.size(); ++e) {
-    if (flat[e] || c.is_boundary_edge(static_cast<int>(e))) continue;
-    const auto& [left, right] = c.edge_faces[e];
-    if (patch_at(left).has_sharp_edge || patch_at(right).has_sharp_edge) continue;
-    Group& group = groups[group_of.root(left)];
-    ++group.edges;
-    group.rounded_edges += rounding.explains(e);
+  const Rounding rounding(points, c);
+  if (rounding.has_steps()) {
+    for (int e = 0; e < std::ssize(flat); ++e) {
+      if (flat[e] || c.is_boundary_edge(e)) continue;
+      const auto& [left, right] = c.edge_faces[e];
+      if (patch_at(left).has_sharp_edge || patch_at(right).has_sharp_edge) continue;
+      Group& group = groups[group_of.root(left)];
+      ++group.edges;
+      group.rounded_edges += rounding.explains(e);
+      group.straight_edges += rounding.is_straight(e);
+    }
+    for (int v = 0; v < c.vertex_count; ++v) {
+      const auto faces = c.vertex_faces[v];
+      if (!faces.empty() && !patch_at(faces[0]).has_sharp_edge)
+        rounding.add_levels(v, groups[group_of.root(faces[0])].levels);
+    }
   }
   std::vector<double> max_areas;
   for (Group& group : groups) max_areas.push_back(group.max_area());

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <tuple>
 #include <unordered_map>
 
 namespace hooke {
@@ -120,6 +121,19 @@ std::vector<double> reach_of_boundary(const Mat3X& points, const std::vector<Tri
     if (last - edge == 1 && (*edge)[0] != (*edge)[1]) boundary.push_back(*edge);
   }
   return reach_of_edges(points, boundary);
+}
+
+std::vector<Edge> coincident_boundary_pairs(const Mat3X& points, const Adjacency& c) {
+  std::vector<int> boundary;
+  for (std::size_t e = 0; e < c.edges.size(); ++e)
+    if (c.is_boundary_edge(static_cast<int>(e))) boundary.push_back(c.edges[e][0]);
+  const auto coordinates = [&](int v) { return std::tuple(points(0, v), points(1, v), points(2, v)); };
+  std::ranges::sort(boundary, {}, coordinates);
+  std::vector<Edge> pairs;
+  for (std::size_t i = 1; i < boundary.size(); ++i)
+    if (coordinates(boundary[i - 1]) == coordinates(boundary[i]))
+      pairs.push_back({boundary[i - 1], boundary[i]});
+  return pairs;
 }
 
 }  // namespace hooke

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "hooke/core/types.h"
+#include "hooke/mesh/adjacency.h"
 
 namespace hooke {
 
@@ -20,5 +21,9 @@ std::vector<double> reach_of_edges(const Mat3X& points, const std::vector<Edge>&
 
 /// The same for the edges that belong to one triangle only. The triangles may be those of an invalid mesh.
 std::vector<double> reach_of_boundary(const Mat3X& points, const std::vector<Triangle>& triangles);
+
+/// Pairs of boundary vertices with exactly the same coordinates, as where a surface is cut open along a
+/// texture seam; each of several in a place with the next.
+std::vector<Edge> coincident_boundary_pairs(const Mat3X& points, const Adjacency& adjacency);
 
 }  // namespace hooke

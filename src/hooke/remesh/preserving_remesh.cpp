@@ -55,6 +55,7 @@ class PreservingRemesh {
       take_lengths_of_input(start, best);
     if (!is_done(best)) leave_as_it_was(best);
     resolve_bends(start, best);
+    if (best.result.rescue == Rescue::put_back) best.result.refused_distance = refused_distance_;
     if (!best.lengths.shorter.empty()) best.result.shortened = shorter_.count_in(best);
     if (!maker_.adapts() && vertex_points(best.mesh) == maker_.as_written(vertex_points(maker_.mesh())))
       best.result.steps = MaskSteps::none;
@@ -170,6 +171,7 @@ class PreservingRemesh {
   Attempt attempt(Attempt* unmended = nullptr) {
     Attempt run = first_ ? *std::exchange(first_, std::nullopt) : maker_.run();
     maker_.judge(run);
+    if (is_first_) note_distance(run);
     if (unmended != nullptr) *unmended = run;
     if (!run.result.measures || run.is_interrupted()) return run;
     const std::vector<FarVertex> lost = run.preservation().lost_vertices;
@@ -186,6 +188,16 @@ class PreservingRemesh {
     next.result.rescue = Rescue::tips;
     mend(maker_, next);
     return next.is_better_than(run) ? std::move(next) : std::move(run);
+  }
+
+  /// Notes how far the first attempt is from the input if nothing else is wrong with it.
+  void note_distance(const Attempt& run) {
+    is_first_ = false;
+    if (!run.result.measures) return;
+    const Preservation& p = run.preservation();
+    if (p.flaws() == 0 || p.flaws() > p.far_vertices.size() + p.lost_vertices.size()) return;
+    const Deviation& d = run.result.measures->deviation;
+    refused_distance_ = std::max({p.distance, d.to_reference.max, d.from_reference.max});
   }
 
   /// Holds vertices of the input, as the tip of a cone, that a result has lost.
@@ -597,6 +609,8 @@ class PreservingRemesh {
   const std::vector<double> asked_;  // target lengths, by vertex of the input in memory order
   const ShorterLengths shorter_;
   std::optional<Attempt> first_;  // that is at hand
+  bool is_first_ = true;          // is no attempt made yet?
+  double refused_distance_ = 0;   // see RemeshResult
   std::optional<double> max_faces_of_part_;
   bool keeps_first_ = false;
 };

@@ -91,6 +91,9 @@ struct RemeshResult {
   /// Of preserving_remesh(), null if not measured; copies of the result share them.
   std::shared_ptr<ResultMeasures> measures;
   Rescue rescue = Rescue::none;
+  /// How far the first attempt was from the input, if that alone broke a promise and vertices were put back;
+  /// in the unit of the points.
+  double refused_distance = 0;
   int rescued_shells = 0;  // that were remeshed by themselves and for which that holds; 0: for the whole
   /// Vertices at which preserving_remesh() took less than .8 of the target length asked for, so that the
   /// surface is kept.

@@ -57,6 +57,9 @@ class Bends {
     return angle_between(x - surface_.points.col(ends[0]), surface_.points.col(ends[1]) - x);
   }
 
+  /// The other ends of the edges of curves at the vertex.
+  const std::vector<int>& ends(int vertex) const { return curve_ends_[vertex]; }
+
   /// The edges of curves.
   const std::vector<int>& curves() const { return curves_; }
 
@@ -110,7 +113,8 @@ class SmoothParts {
   const AabbTree curves_;
 };
 
-/// A place where a result bends by an angle in degrees, and its target length there.
+/// A place where a result bends by an angle in degrees within a length: at most its target length, or that of
+/// its edges or the width of its faces there if these are shorter.
 struct Bend {
   Vec3 from, to;
   double angle;
@@ -131,15 +135,21 @@ std::vector<Bend> unresolved_bends(const AttemptMaker& maker, const Attempt& att
     if (angle <= max_bend || bends.is_on_curve(e)) continue;
     const auto& [v, w] = c.edges[e];
     const Vec3 from = surface.points.col(v), to = surface.points.col(w);
-    if (input.bends_less_across(.5 * (from + to), surface.shell_of_vertex(v), smooth_share * angle,
-                                crease_reach * (to - from).norm()))
-      unresolved.push_back({from, to, angle, std::min(lengths[v], lengths[w])});
+    if (!input.bends_less_across(.5 * (from + to), surface.shell_of_vertex(v), smooth_share * angle,
+                                 crease_reach * (to - from).norm()))
+      continue;
+    double width = 0;  // mean of the faces
+    for (int f : c.edge_faces[e])
+      width += .5 * doubled_area_vector(surface.points, c.faces[f]).norm() / (to - from).norm();
+    unresolved.push_back({from, to, angle, std::min({lengths[v], lengths[w], width})});
   }
   for (int v = 0; v < c.vertex_count; ++v) {
     const std::optional<double> angle = bends.along(v);
     const Vec3 x = surface.points.col(v);
-    if (angle && *angle > max_bend && input.bends_less_along(x, smooth_share * *angle))
-      unresolved.push_back({x, x, *angle, lengths[v]});
+    if (!angle || *angle <= max_bend || !input.bends_less_along(x, smooth_share * *angle)) continue;
+    double length = 0;  // mean of the edges
+    for (int end : bends.ends(v)) length += .5 * (surface.points.col(end) - x).norm();
+    unresolved.push_back({x, x, *angle, std::min(lengths[v], length)});
   }
   return unresolved;
 }
@@ -150,11 +160,13 @@ std::optional<AskedLengths> ShorterLengths::resolving_bends(const Attempt& attem
   const std::vector<Bend> bends = unresolved_bends(maker_, attempt);
   if (static_cast<double>(bends.size()) < few_bends * static_cast<double>(attempt.mesh.n_edges()))
     return std::nullopt;
-  for (const double resolved_bend : {33., max_bend}) {
+  constexpr double fine_bend = 33, coarser = 4. / 3, more_faces = 2;
+  for (double bend = fine_bend; bend < 2 * max_bend; bend *= coarser) {
     AskedLengths lengths = attempt.lengths;
-    for (const Bend& bend : bends)
-      lengths.shorter.push_back({bend.from, bend.to, bend.length * resolved_bend / bend.angle});
-    if (faces_of(lengths, max_faces) <= max_faces) return lengths;
+    for (const Bend& b : bends)
+      lengths.shorter.push_back({b.from, b.to, b.length * std::min(1., bend / b.angle)});
+    const double most = bend > fine_bend ? more_faces * max_faces : max_faces;
+    if (faces_of(lengths, most) <= most) return lengths;
   }
   return std::nullopt;
 }

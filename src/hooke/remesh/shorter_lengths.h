@@ -22,8 +22,8 @@ class ShorterLengths {
   /// The lengths of an attempt, shortened where the input bends over several edges and the attempt within
   /// one: by more than 45 degrees across an edge that is no crease, or along a crease or boundary at a
   /// vertex, where the input bends by less than .85 of that. So short that it would be 33 degrees or, if
-  /// these lengths took more than `max_faces`, 45. None where that would too, or if hardly an
-  /// edge bends so.
+  /// these lengths took more than `max_faces`, 44, 59 or 78, the first with which they do not take twice as
+  /// many. None if all do, or if hardly an edge bends so.
   std::optional<AskedLengths> resolving_bends(const Attempt& attempt, double max_faces) const;
 
   /// The number of faces that these lengths take, or more than `enough`.

@@ -6,8 +6,10 @@
 #include <numbers>
 
 #include "hooke/core/parallel.h"
+#include "hooke/mesh/disjoint_sets.h"
 #include "hooke/mesh/extent.h"
 #include "hooke/mesh/junctions.h"
+#include "hooke/mesh/vertex_welding.h"
 
 namespace hooke {
 namespace {
@@ -17,6 +19,23 @@ constexpr size_t length_block = 4096;
 double face_area(const Mat3X& points, const Triangle& t) {
   const Vec3 a = points.col(t[0]);
   return .5 * (points.col(t[1]) - a).cross(points.col(t[2]) - a).norm();
+}
+
+/// The number of the part of each vertex, -1 without faces. Shells whose boundaries coincide are one part: a
+/// surface that was cut open.
+std::vector<int> label_parts(const Mat3X& points, const Adjacency& c, const std::vector<int>& joined) {
+  std::vector<int> shells = label_shells(c, joined);
+  DisjointSets parts(static_cast<std::size_t>(1 + std::max(0, std::ranges::max(shells))));
+  for (const auto& [v, w] : coincident_boundary_pairs(points, c)) parts.join({shells[v], shells[w]});
+  std::vector<int> number(shells.size(), -1);
+  int count = 0;
+  for (int& shell : shells) {
+    if (shell < 0) continue;
+    int& of_part = number[parts.root(shell)];
+    if (of_part < 0) of_part = count++;
+    shell = of_part;
+  }
+  return shells;
 }
 
 double mean_of_three(double a, double b, double c) {
@@ -32,17 +51,28 @@ double natural_length(double area, std::size_t face_count) {
 UniformVector natural_lengths_of_parts(const Mat3X& points, const Adjacency& c,
                                        const std::vector<int>& joined) {
   constexpr double alike = .05;      // relative difference
-  constexpr double shortest = 1e-3;  // of the whole: parts may have no area
+  constexpr double of_edges = .5;    // least length, in the part's mean edges: slivers have long ones
+  constexpr double shortest = 1e-3;  // of the whole
   const double natural = natural_length(total_area(points, c.faces), c.faces.size());
-  const std::vector<int> parts = label_shells(c, joined);
-  std::vector<double> lengths(1 + std::max(0, std::ranges::max(parts)), 0);
-  std::vector<std::size_t> faces(lengths.size(), 0);
+  const std::vector<int> parts = label_parts(points, c, joined);
+  const auto count = static_cast<std::size_t>(1 + std::max(0, std::ranges::max(parts)));
+  if (count == 1) return {parts.size(), natural};
+  struct Part {
+    double area = 0, perimeters = 0;
+    std::size_t faces = 0;
+  };
+  std::vector<Part> sums(count);
   for (const Triangle& t : c.faces) {
-    lengths[parts[t[0]]] += face_area(points, t);
-    ++faces[parts[t[0]]];
+    Part& part = sums[parts[t[0]]];
+    part.area += face_area(points, t);
+    for (std::size_t k = 0; k < 3; ++k)
+      part.perimeters += (points.col(t[k]) - points.col(t[(k + 1) % 3])).norm();
+    ++part.faces;
   }
-  for (std::size_t part = 0; part < lengths.size(); ++part)
-    lengths[part] = std::max(natural_length(lengths[part], faces[part]), shortest * natural);
+  std::vector<double> lengths;
+  for (const Part& part : sums)
+    lengths.push_back(std::max({natural_length(part.area, part.faces), shortest * natural,
+                                of_edges * part.perimeters / static_cast<double>(3 * part.faces)}));
   if (std::ranges::all_of(lengths, [&](double l) { return std::abs(l - natural) <= alike * natural; }))
     return {parts.size(), natural};
   std::vector<double> of_vertices;

@@ -17,10 +17,11 @@ struct TargetLengths {
 /// L* = sqrt(4 A / (sqrt 3 F)): the edge length of F equilateral triangles that cover the area A.
 double natural_length(double area, std::size_t face_count);
 
-/// The natural length of the part of the mesh that each vertex is on, at least a thousandth of that of the
-/// whole; that of the whole for a vertex without faces, or that of the whole for all if no part's differs
-/// much from it. Parts are shells, `joined` are the copies of vertices, see mesh/junctions.h. Pre-condition:
-/// there are faces.
+/// The natural length of the part of the mesh that each vertex is on, but at least half its mean edge, as a
+/// part may be a sliver, and a thousandth of the natural length of the whole; that of the whole for a vertex
+/// without faces, or for all if no part's differs much from it. Parts are shells, together with those whose
+/// boundaries they touch; `joined` are the copies of vertices, see mesh/junctions.h. Pre-condition: there are
+/// faces.
 UniformVector natural_lengths_of_parts(const Mat3X& points, const Adjacency& adjacency,
                                        const std::vector<int>& joined);
 
