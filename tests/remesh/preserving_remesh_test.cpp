@@ -470,6 +470,24 @@ test::Triangles stretched_sphere() {
   return t;
 }
 
+TEST(PreservingRemesh, TellsTheDistanceThatItRefused) {
+  test::Triangles pipe = test::grid(23, test::flat);  // open, rows ever farther apart
+  for (auto x : pipe.points.colwise()) {
+    const double angle = 1.9 * std::numbers::pi * x[0];
+    x = Vec3(std::cos(angle), std::sin(angle), 4 * std::pow(x[1], 3)).eval();
+  }
+  const RemeshOptions options = options_for(ConnectivityMode::fixed);
+  const test::Outcome refused = preserved(pipe, options);
+  ASSERT_EQ(refused.result.rescue, Rescue::put_back);
+  ASSERT_GT(refused.result.refused_distance, 0);
+  const test::Outcome allowed =
+      preserved(pipe, options, nullptr, {.max_distance = 1.2 * refused.result.refused_distance});
+  EXPECT_NE(allowed.result.rescue, Rescue::put_back);
+  EXPECT_EQ(allowed.result.refused_distance, 0);
+  EXPECT_GT(allowed.result.measures->quality.min_angle.min,
+            10 * refused.result.measures->quality.min_angle.min);
+}
+
 TEST(PreservingRemesh, FlawsAlongLongWaysDoNotPutMostVerticesBack) {
   const test::Triangles t = stretched_sphere();
   int calls = 0, stop = 0;
