@@ -66,17 +66,46 @@ std::string without_most(const Seams& seams, const SeamKinds& keep) {
   return words.empty() ? "none" : fmt::format("{}", fmt::join(words, ","));
 }
 
-/// Warns if so many edges are seams, though the surface is smooth across them, that little can change.
-void warn_of_many_seams(const Seams& seams, const Settings& s, const LoadedMesh& loaded, RunRecord& record) {
-  constexpr double many = 1. / 3;
+/// How many seams are not along sharp edges.
+std::size_t count_smooth(const Seams& seams, const Settings& s, const LoadedMesh& loaded) {
   const MemoryOrder& m = loaded.memory_order;
-  const std::size_t limit = many * static_cast<double>(m.adjacency->edges.size());
-  if (seams.edges.size() <= limit) return;
   const std::vector<int> sharp = sharp_edges(m.order.gather(vertex_points(loaded.mesh)), *m.adjacency,
                                              s.remesh.constraints.features.angle);
-  std::vector<int> flat;
-  std::ranges::set_difference(seams.edges, sharp, std::back_inserter(flat));
-  if (flat.size() <= limit) return;
+  std::vector<int> smooth;
+  std::ranges::set_difference(seams.edges, sharp, std::back_inserter(smooth));
+  return smooth.size();
+}
+
+/// More than so many seams hold most vertices.
+std::size_t many_seams(const LoadedMesh& loaded) {
+  constexpr double many = 1. / 3;  // of all edges
+  return static_cast<std::size_t>(many * static_cast<double>(loaded.memory_order.adjacency->edges.size()));
+}
+
+/// Warns where faces stay if data of them, which the output holds, have borders that will move with them.
+void warn_of_moving_borders(const Settings& s, const LoadedMesh& loaded, const FaceData& held,
+                            RunRecord& record) {
+  const SeamKinds kinds{.texture = s.format == MeshFormat::obj, .hard_edges = false};
+  const Seams seams = find_seams(loaded.memory_order, loaded.corner_data, held, kinds);
+  if (seams.edges.empty()) return;
+  const std::size_t count = count_smooth(seams, s, loaded);
+  if (count == 0 || count > many_seams(loaded)) return;
+  std::vector<const char*> words;
+  if (seams.texture > 0) words.push_back("seams");
+  if (seams.materials > 0) words.push_back("materials");
+  if (seams.groups > 0) words.push_back("groups");
+  record.warnings.push_back(
+      {"borders_move",
+       fmt::format("{}: {} edges at which texture coordinates, materials or groups change move with their "
+                   "faces; --keep {} holds these borders in their places",
+                   record.input.path, count, fmt::join(words, ","))});
+}
+
+/// Warns if so many edges are seams, though the surface is smooth across them, that little can change.
+void warn_of_many_seams(const Seams& seams, const Settings& s, const LoadedMesh& loaded, RunRecord& record) {
+  const MemoryOrder& m = loaded.memory_order;
+  const std::size_t limit = many_seams(loaded);
+  if (seams.edges.size() <= limit || count_smooth(seams, s, loaded) <= limit) return;
   record.warnings.push_back(
       {"many_seams",
        fmt::format(
@@ -172,20 +201,25 @@ void set_rest_ratios(const Settings& s, LoadedMesh& loaded) {
 }
 
 void keep_seams(Settings& s, LoadedMesh& loaded, RunRecord& record) {
-  if (keeps_faces(s) || s.keep.hard_edges)
+  const bool faces_stay = keeps_faces(s);
+  if (faces_stay || s.keep.hard_edges)
     s.remesh.constraints.hard_edges = find_hard_edges(loaded.memory_order, loaded.corner_data.normals).ends;
-  if (keeps_faces(s)) return;
-  drop_unkept(s.keep, loaded, record);
-  if (s.format != MeshFormat::obj) loaded.corner_data = {};
+  if (faces_stay && (s.paper || s.check)) return;
+  if (!faces_stay) {
+    drop_unkept(s.keep, loaded, record);
+    if (s.format != MeshFormat::obj) loaded.corner_data = {};
+  }
   const FormatFaceData held =
       face_data_for_format(loaded.face_data, loaded.format, *s.format, encoding_of_output(s, loaded));
+  if (faces_stay && s.keep == SeamKinds{false, false, false, false})
+    return warn_of_moving_borders(s, loaded, held.data, record);
   Seams seams = find_seams(loaded.memory_order, loaded.corner_data, held.data, s.keep);
   warn_of_many_seams(seams, s, loaded, record);
   record.seam_edges = static_cast<int>(seams.edges.size());
   s.remesh.constraints.seams = std::move(seams.ends);
   std::vector<int>& fixed = s.remesh.constraints.fixed_vertices;
   fixed.insert(fixed.end(), seams.poles.begin(), seams.poles.end());
-  s.remesh.map |= !loaded.face_data.empty() || !loaded.corner_data.empty();
+  if (!faces_stay) s.remesh.map |= !loaded.face_data.empty() || !loaded.corner_data.empty();
 }
 
 void carry_data(const Settings& s, LoadedMesh& loaded, const Original& original, RunRecord& record) {

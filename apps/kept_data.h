@@ -11,8 +11,8 @@ namespace hooke::app {
 
 /// Makes the seams of the input that are to be kept, of data that the output can hold, feature edges
 /// (RemeshOptions::constraints), and warns if they are so many that hardly anything can change. Drops the
-/// data that are not to be kept, of which it warns. Where faces stay it only tells of hard edges
-/// (ConstraintOptions::hard_edges).
+/// data that are not to be kept, of which it warns, unless faces stay: these keep their data. Tells of hard
+/// edges (ConstraintOptions::hard_edges).
 void keep_seams(Settings& settings, LoadedMesh& loaded, RunRecord& record);
 
 /// Are the faces of the result those of the file's polygons, which no repair has changed?

@@ -248,7 +248,8 @@ void add_constraints(CLI::App& app, Settings& s, RawOptions& raw) {
       ->default_str("auto");
   app.add_option(
          "--keep", raw.keep,
-         "What is kept along its borders with flip and adapt, one or more, with commas: seams = texture "
+         "What is kept along its borders with flip and adapt, and with fixed if named, one or more, with "
+         "commas: seams = texture "
          "coordinates of an OBJ, hard-edges = edges at which its normals differ (normals go along with "
          "either), materials = its materials and the face labels of other formats "
          "(groups of MSH, integer properties of PLY), groups = groups, objects and smoothing groups of OBJ, "

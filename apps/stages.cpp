@@ -36,10 +36,10 @@ namespace {
 /// As --keep takes it.
 std::string text_of(const Settings& s) {
   std::vector<const char*> words;
-  if (!keeps_faces(s) && s.keep.texture) words.push_back("seams");
-  if (!keeps_faces(s) && s.keep.hard_edges) words.push_back("hard-edges");
-  if (!keeps_faces(s) && s.keep.materials) words.push_back("materials");
-  if (!keeps_faces(s) && s.keep.groups) words.push_back("groups");
+  if (s.keep.texture) words.push_back("seams");
+  if (s.keep.hard_edges) words.push_back("hard-edges");
+  if (s.keep.materials) words.push_back("materials");
+  if (s.keep.groups) words.push_back("groups");
   if (s.repair.keep_junctions) words.push_back("non-manifold");
   return words.empty() ? "none" : fmt::format("{}", fmt::join(words, ","));
 }

@@ -227,13 +227,13 @@ void reject_unused_options(const Settings& s, const RawOptions& raw) {
   refuse(s.repair.repair || s.weld_text != "off", {"--edge-lengths"},
          "names edges that --repair and --weld may change");
   refuse(s.repair.keep_junctions, {"--edge-lengths"}, "is not of meshes with --keep non-manifold");
-  refuse(!s.repair.keep_junctions && (s.paper || s.remesh.connectivity == ConnectivityMode::fixed),
-         {"--keep"}, "is of --connectivity flip and adapt; with fixed all is kept");
-  if (s.repair.keep_junctions && *raw.keep != "non-manifold" &&
-      (s.paper || s.remesh.connectivity == ConnectivityMode::fixed))
+  refuse(raw.keep == "none" && s.remesh.connectivity == ConnectivityMode::fixed, {"--keep"},
+         "none is of --connectivity flip and adapt; with fixed no borders are held by themselves");
+  refuse(!s.repair.keep_junctions && s.paper, {"--keep"}, "is not of --paper, where no borders are held");
+  if (s.repair.keep_junctions && *raw.keep != "non-manifold" && s.paper)
     throw Error(
-        fmt::format("--keep {}: all words but non-manifold are of --connectivity flip and adapt, with "
-                    "fixed all is kept; write --keep non-manifold",
+        fmt::format("--keep {}: all words but non-manifold are not of --paper, where no borders are "
+                    "held; write --keep non-manifold",
                     in_quotes(*raw.keep)));
   refuse(!s.paper && s.remesh.connectivity == ConnectivityMode::adapt, {"--refit"},
          "is of --connectivity fixed and flip; adapt keeps the field of the input");
@@ -296,6 +296,7 @@ void resolve(Settings& s, const RawOptions& raw) {
   s.length = parsed("--length", parse_length, s.length_text);
   if (s.remesh.connectivity == ConnectivityMode::adapt) s.length.whose = LengthSpec::Natural::shorter;
   resolve_sizing(s, raw);
+  if (s.remesh.connectivity == ConnectivityMode::fixed) s.keep = {false, false, false, false};
   if (raw.keep) parse_keep(*raw.keep, s.keep, s.repair.keep_junctions);
   if (raw.drop_components) s.repair.drop_components = parse_share(*raw.drop_components);
   if (raw.fill_holes) s.repair.fill_holes = parse_hole_edges(*raw.fill_holes);

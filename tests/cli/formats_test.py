@@ -145,7 +145,7 @@ class Msh(CommandTest):
     def test_groups_stay_with_their_faces(self):
         for target in ([], ["--format", "msh"], ["--format", "msh2"]):
             _, err = self.run_command("in.msh", "-o", "out.msh", "-q", "--effort", "fast", *target)
-            self.assertEqual(err, "")
+            self.assertRegex(err, r"^hooke-remesh: warning: in.msh: \d+ edges at which .* --keep materials holds these borders in their places\n$")
             text = (self.folder / "out.msh").read_text()
             self.assertIn('2 1 "low"\n2 2 "high"\n', text)
             self.assertEqual(text.splitlines()[1], "4.1 0 8" if target == ["--format", "msh"] else "2.2 0 8")
@@ -171,7 +171,7 @@ class Msh(CommandTest):
                                (["out.msh", "--connectivity", "flip", "--keep", "groups"], "face data not kept: group, entity: new faces have none")):
             _, err = self.run_command("in.msh", "-q", "--effort", "fast", "-o", *arguments)
             self.assertIn(why, err)
-            self.assertEqual(err.count("\n"), 1)
+            self.assertEqual(len([line for line in err.splitlines() if "--keep materials holds" not in line]), 1)
 
 
 class Vtp(CommandTest):

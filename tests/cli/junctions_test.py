@@ -488,9 +488,8 @@ class Junctions(CommandTest):
         self.assertIn("touching.obj: vertices where sheets only touch stay where they are\n", err)
 
     def test_words_that_would_do_nothing(self):
-        for mode in ([], ["--paper"]):
-            self.refused(2, "boxes.obj", "-o", "out.obj", "--keep", "non-manifold,materials", *mode,
-                         names="--keep 'non-manifold,materials'", says="write --keep non-manifold")
+        self.refused(2, "boxes.obj", "-o", "out.obj", "--keep", "non-manifold,materials", "--paper",
+                     names="--keep 'non-manifold,materials'", says="write --keep non-manifold")
 
     def test_options_that_do_not_go_with_it(self):
         self.write("lengths.txt", "0 1 1\n")

@@ -255,6 +255,32 @@ class Seams(CommandTest):
         self.refused(2, "can.obj", "-o", "o.obj", "--connectivity", "flip", "--keep", "seams,x", says="expected seams, hard-edges, materials, groups")
         self.refused(2, "can.obj", "-o", "o.obj", "--keep", "none", says="--keep")
 
+    def test_hold_borders_where_faces_stay(self):
+        """Of a plane of two materials, with vertices off the grid but for those of the border."""
+        size = 12
+        shift = lambda i, j: .35 * math.sin(7 * i + 3 * j * j) if 0 < i < size and 0 < j < size and i != size // 2 else 0
+        rows = ["v %g %g 0" % (i + shift(i, j), j + shift(j, i) if i != size // 2 else j) for j in range(size + 1) for i in range(size + 1)]
+        for name, columns in (("left", range(size // 2)), ("right", range(size // 2, size))):
+            rows.append("usemtl " + name)
+            for j in range(size):
+                for i in columns:
+                    a, b = j * (size + 1) + i + 1, (j + 1) * (size + 1) + i + 1
+                    rows += ["f %d %d %d" % (a, a + 1, b + 1), "f %d %d %d" % (a, b + 1, b)]
+        self.write("plane.obj", "\n".join(rows) + "\n")
+        border = [j * (size + 1) + size // 2 for j in range(size + 1)]
+        def off_border(*options):
+            report = self.report("plane.obj", "-o", "out.obj", "-q", *options)
+            x = [float(line.split()[1]) for line in (self.folder / "out.obj").read_text().splitlines() if line.startswith("v ")]
+            told = [w["message"] for w in report["warnings"] if w["code"] == "borders_move"]
+            return max(abs(x[v] - size // 2) for v in border), told
+        distance, told = off_border()
+        self.assertGreater(distance, .01)
+        self.assertEqual(told, ["plane.obj: 12 edges at which texture coordinates, materials or groups change move with their faces; "
+                                "--keep materials holds these borders in their places"])
+        distance, told = off_border("--keep", "materials")
+        self.assertLess(distance, 1e-6)
+        self.assertEqual(told, [])
+
     def test_that_hold_slivers_are_named(self):
         columns, rows = 20, 8  # narrow columns, each with a texture of its own
         lines = ["v %r %r 0" % (.2 * i, j) for i in range(columns + 1) for j in range(rows + 1)]

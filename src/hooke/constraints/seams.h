@@ -16,6 +16,8 @@ struct SeamKinds {
   bool hard_edges = true;  // normals, see find_hard_edges()
   bool materials = true;   // channels of LabelKind::material
   bool groups = true;      // channels of LabelKind::group
+
+  bool operator==(const SeamKinds&) const = default;
 };
 
 struct Seams {
