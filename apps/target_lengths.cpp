@@ -203,7 +203,8 @@ void set_target_lengths(const Settings& s, TriMesh& mesh, const MemoryOrder& mem
   const bool limited =
       (s.sizing.kind != SizingSource::Kind::none || s.min_length) && std::isfinite(gradation);
   record.parameters["gradation"] = limited ? nlohmann::ordered_json(gradation) : nlohmann::ordered_json();
-  if (!s.check && s.edge_lengths.empty() && s.remesh.connectivity != ConnectivityMode::adapt)
+  if (!s.check && s.edge_lengths.empty() && s.remesh.connectivity != ConnectivityMode::adapt &&
+      s.length.kind != LengthSpec::Kind::natural)
     warn_of_length(s, covering, natural, record);
 }
 
