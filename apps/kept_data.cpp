@@ -55,15 +55,19 @@ void drop_unkept(const SeamKinds& keep, LoadedMesh& loaded, RunRecord& record) {
   if (!keep.materials) loaded.material_libraries.clear();
 }
 
-/// The words of --keep without those of the most frequent kind of seams.
-std::string without_most(const Seams& seams, const SeamKinds& keep) {
+/// Which --keep holds all but the most frequent kind of seams.
+std::string what_gives_up_most(const Seams& seams, const Settings& s) {
   const std::size_t most = std::max({seams.texture, seams.hard_edges, seams.materials, seams.groups});
   std::vector<const char*> words;
-  if (keep.texture && seams.texture < most) words.push_back("seams");
-  if (keep.hard_edges && seams.hard_edges < most) words.push_back("hard-edges");
-  if (keep.materials && seams.materials < most) words.push_back("materials");
-  if (keep.groups && seams.groups < most) words.push_back("groups");
-  return words.empty() ? "none" : fmt::format("{}", fmt::join(words, ","));
+  if (s.keep.texture && seams.texture < most) words.push_back("seams");
+  if (s.keep.hard_edges && seams.hard_edges < most) words.push_back("hard-edges");
+  if (s.keep.materials && seams.materials < most) words.push_back("materials");
+  if (s.keep.groups && seams.groups < most) words.push_back("groups");
+  if (words.empty() && (keeps_faces(s) || s.repair.keep_junctions))
+    return fmt::format("{} gives them up", keeps_faces(s) ? "no --keep" : "--connectivity fixed");
+  if (s.repair.keep_junctions) words.push_back("non-manifold");
+  return fmt::format("--keep {} gives them up",
+                     words.empty() ? "none" : fmt::format("{}", fmt::join(words, ",")));
 }
 
 /// How many seams are not along sharp edges.
@@ -76,29 +80,46 @@ std::size_t count_smooth(const Seams& seams, const Settings& s, const LoadedMesh
   return smooth.size();
 }
 
+constexpr SeamKinds no_seams{false, false, false, false};
+
 /// More than so many seams hold most vertices.
 std::size_t many_seams(const LoadedMesh& loaded) {
   constexpr double many = 1. / 3;  // of all edges
   return static_cast<std::size_t>(many * static_cast<double>(loaded.memory_order.adjacency->edges.size()));
 }
 
-/// Warns where faces stay if data of them, which the output holds, have borders that will move with them.
-void warn_of_moving_borders(const Settings& s, const LoadedMesh& loaded, const FaceData& held,
-                            RunRecord& record) {
+/// Warns where faces stay if data of them, which the output holds, have borders that moved with them: not
+/// along creases.
+void warn_of_moved_borders(const Settings& s, const LoadedMesh& loaded, const Original& original,
+                           RunRecord& record) {
+  const FormatFaceData held =
+      face_data_for_format(loaded.face_data, loaded.format, *s.format, encoding_of_output(s, loaded));
   const SeamKinds kinds{.texture = s.format == MeshFormat::obj, .hard_edges = false};
-  const Seams seams = find_seams(loaded.memory_order, loaded.corner_data, held, kinds);
-  if (seams.edges.empty()) return;
-  const std::size_t count = count_smooth(seams, s, loaded);
+  const Seams seams = find_seams(loaded.memory_order, loaded.corner_data, held.data, kinds);
+  std::vector<Edge> creases = record.result->crease_edges;
+  for (Edge& crease : creases) std::ranges::sort(crease);
+  std::ranges::sort(creases);
+  const Mat3X before = original.memory_order.order.scatter(original.points);
+  const auto after = vertex_points(loaded.mesh);
+  const auto has_moved = [&](Edge ends) {
+    std::ranges::sort(ends);
+    return !std::ranges::binary_search(creases, ends) &&
+           std::ranges::any_of(ends, [&](int v) { return before.col(v) != after.col(v); });
+  };
+  const auto count = static_cast<std::size_t>(std::ranges::count_if(seams.ends, has_moved));
   if (count == 0 || count > many_seams(loaded)) return;
   std::vector<const char*> words;
   if (seams.texture > 0) words.push_back("seams");
   if (seams.materials > 0) words.push_back("materials");
   if (seams.groups > 0) words.push_back("groups");
   record.warnings.push_back(
-      {"borders_move",
-       fmt::format("{}: {} edges at which texture coordinates, materials or groups change move with their "
-                   "faces; --keep {} holds these borders in their places",
-                   record.input.path, count, fmt::join(words, ","))});
+      {"borders_moved", fmt::format("{}: {} edges at borders of {} have moved with their faces; --keep {} "
+                                    "holds these borders in their places",
+                                    record.input.path, count,
+                                    seams.texture == 0 ? "materials, groups or labels"
+                                    : words.size() > 1 ? "the texture, materials or groups"
+                                                       : "the texture",
+                                    fmt::join(words, ","))});
 }
 
 /// Warns if so many edges are seams, though the surface is smooth across them, that little can change.
@@ -108,11 +129,10 @@ void warn_of_many_seams(const Seams& seams, const Settings& s, const LoadedMesh&
   if (seams.edges.size() <= limit || count_smooth(seams, s, loaded) <= limit) return;
   record.warnings.push_back(
       {"many_seams",
-       fmt::format(
-           "{}: {} of {} edges are seams, which stay where they are, so that little can change "
-           "(texture: {}, hard edges: {}, materials and labels: {}, groups: {}); --keep {} gives them up",
-           record.input.path, seams.edges.size(), m.adjacency->edges.size(), seams.texture, seams.hard_edges,
-           seams.materials, seams.groups, without_most(seams, s.keep))});
+       fmt::format("{}: {} of {} edges are seams, which stay where they are, so that little can change "
+                   "(texture: {}, hard edges: {}, materials and labels: {}, groups: {}); {}",
+                   record.input.path, seams.edges.size(), m.adjacency->edges.size(), seams.texture,
+                   seams.hard_edges, seams.materials, seams.groups, what_gives_up_most(seams, s))});
 }
 
 /// The face of the input where each vertex of the result lies, in memory order; -1 for none.
@@ -204,15 +224,13 @@ void keep_seams(Settings& s, LoadedMesh& loaded, RunRecord& record) {
   const bool faces_stay = keeps_faces(s);
   if (faces_stay || s.keep.hard_edges)
     s.remesh.constraints.hard_edges = find_hard_edges(loaded.memory_order, loaded.corner_data.normals).ends;
-  if (faces_stay && (s.paper || s.check)) return;
+  if (faces_stay && s.keep == no_seams) return;
   if (!faces_stay) {
     drop_unkept(s.keep, loaded, record);
     if (s.format != MeshFormat::obj) loaded.corner_data = {};
   }
   const FormatFaceData held =
       face_data_for_format(loaded.face_data, loaded.format, *s.format, encoding_of_output(s, loaded));
-  if (faces_stay && s.keep == SeamKinds{false, false, false, false})
-    return warn_of_moving_borders(s, loaded, held.data, record);
   Seams seams = find_seams(loaded.memory_order, loaded.corner_data, held.data, s.keep);
   warn_of_many_seams(seams, s, loaded, record);
   record.seam_edges = static_cast<int>(seams.edges.size());
@@ -223,7 +241,11 @@ void keep_seams(Settings& s, LoadedMesh& loaded, RunRecord& record) {
 }
 
 void carry_data(const Settings& s, LoadedMesh& loaded, const Original& original, RunRecord& record) {
-  if (keeps_faces(s) || (loaded.face_data.empty() && loaded.corner_data.empty())) return;
+  if (keeps_faces(s)) {
+    if (!s.paper && s.keep == no_seams) warn_of_moved_borders(s, loaded, original, record);
+    return;
+  }
+  if (loaded.face_data.empty() && loaded.corner_data.empty()) return;
   const MemoryOrder &before = original.memory_order, &after = loaded.memory_order;
   Adjacency input = *before.adjacency, result = *after.adjacency;
   split_wedges(input, before.order.new_edges(record.result->input_creases));

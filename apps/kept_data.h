@@ -29,8 +29,9 @@ bool guards_polygons(const Settings& settings, const LoadedMesh& loaded);
 void set_rest_ratios(const Settings& settings, LoadedMesh& loaded);
 
 /// Replaces the data of faces and corners of the input by those of the result, and brings faces with equal
-/// labels together, in the order in which the input has them; ids of faces in the record follow. Does nothing
-/// where faces stay. `loaded` holds the result.
+/// labels together, in the order in which the input has them; ids of faces in the record follow. Where
+/// faces stay it only warns of borders that have moved with them, unless they were to be kept. `loaded` holds
+/// the result.
 void carry_data(const Settings& settings, LoadedMesh& loaded, const Original& original, RunRecord& record);
 
 }  // namespace hooke::app

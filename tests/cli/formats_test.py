@@ -145,7 +145,7 @@ class Msh(CommandTest):
     def test_groups_stay_with_their_faces(self):
         for target in ([], ["--format", "msh"], ["--format", "msh2"]):
             _, err = self.run_command("in.msh", "-o", "out.msh", "-q", "--effort", "fast", *target)
-            self.assertRegex(err, r"^hooke-remesh: warning: in.msh: \d+ edges at which .* --keep materials holds these borders in their places\n$")
+            self.assertRegex(err, r"^hooke-remesh: warning: in.msh: \d+ edges at borders of .* --keep materials holds these borders in their places\n$")
             text = (self.folder / "out.msh").read_text()
             self.assertIn('2 1 "low"\n2 2 "high"\n', text)
             self.assertEqual(text.splitlines()[1], "4.1 0 8" if target == ["--format", "msh"] else "2.2 0 8")

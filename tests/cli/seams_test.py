@@ -271,11 +271,11 @@ class Seams(CommandTest):
         def off_border(*options):
             report = self.report("plane.obj", "-o", "out.obj", "-q", *options)
             x = [float(line.split()[1]) for line in (self.folder / "out.obj").read_text().splitlines() if line.startswith("v ")]
-            told = [w["message"] for w in report["warnings"] if w["code"] == "borders_move"]
+            told = [w["message"] for w in report["warnings"] if w["code"] == "borders_moved"]
             return max(abs(x[v] - size // 2) for v in border), told
         distance, told = off_border()
         self.assertGreater(distance, .01)
-        self.assertEqual(told, ["plane.obj: 12 edges at which texture coordinates, materials or groups change move with their faces; "
+        self.assertEqual(told, ["plane.obj: 12 edges at borders of materials, groups or labels have moved with their faces; "
                                 "--keep materials holds these borders in their places"])
         distance, told = off_border("--keep", "materials")
         self.assertLess(distance, 1e-6)

@@ -89,12 +89,12 @@ TEST(VertexData, LabelsAreThoseOfTheNearestCorner) {
   const std::vector<double> same = {1, 5, 9, 7, 7, 7, 7}, differ = {1, 5, 9, 3, 4, 5, 6};
   const std::vector<double> nearest = {1, 9, 5, 9}, rounded = {5, 6, 7, 9};
   for (const NumberType type : {NumberType::uint8, NumberType::int8, NumberType::uint16, NumberType::int32}) {
-    const bool is_byte = type <= NumberType::uint8;
+    const bool is_short = type != NumberType::int32;
     const VertexData data = {{"label", type, same}, {"red", type, same}, {"q", type, differ}};
     const VertexData carried = interpolate(data, map, faces);
     EXPECT_EQ(carried[0].values, nearest);
     EXPECT_EQ(carried[1].values, rounded);
-    EXPECT_EQ(carried[2].values, is_byte ? rounded : nearest) << "brightness";
+    EXPECT_EQ(carried[2].values, is_short ? rounded : nearest) << "brightness";
   }
 }
 

@@ -158,6 +158,11 @@ TEST(SmoothPatches, ShallowReliefIsNoRounding) {
     EXPECT_EQ(marked_faces(t), 0);
     EXPECT_TRUE(has_facets(t));
   }
+  test::Triangles pleats = test::grid(60, test::flat);
+  pleats.points.topRows(2) *= 60;
+  for (auto x : pleats.points.colwise())
+    x[2] = .01 * std::round(8.3 * std::abs(std::remainder(x[0] + .013 * x[1], 12.)) + .77 * x[1]);
+  EXPECT_EQ(marked_faces(pleats), 0);
 }
 
 }  // namespace hooke::smooth_patches_test

@@ -90,7 +90,7 @@ TEST(ShorterLengths, ResultsComeNoFartherFromTheInput) {
       const double before = test::volume(once.points, once.faces) / test::volume(bar.points, bar.faces) - 1;
       const Adapted a = adapted(bar, length);
       EXPECT_TRUE(a.measures().preservation.holds()) << sides << " " << length;
-      EXPECT_LE(std::abs(a.volume_change()), std::abs(before) + .002) << sides << " " << length;
+      EXPECT_LE(std::abs(a.volume_change()), std::abs(before) + .005) << sides << " " << length;
     }
 }
 
@@ -108,8 +108,8 @@ TEST(ShorterLengths, OnlyBodiesWhoseFacetsAreMeantTakeThem) {
   }
 }
 
-TEST(ShorterLengths, NotWhereTheyWouldTakeThreeTimesTheFaces) {
-  const Adapted a = adapted(test::drum(32, 30), 6);
+TEST(ShorterLengths, NotWhereTheyWouldTakeTooManyFaces) {
+  const Adapted a = adapted(test::drum(32, 30), 12);
   EXPECT_TRUE(a.measures().preservation.holds());
   EXPECT_EQ(a.outcome.result.shortened, 0);
 }

@@ -35,12 +35,12 @@ double nearest_value(const MapEntry& entry, const std::vector<double>& values,
   return values[faces[entry.position.face][static_cast<size_t>(corner)]];
 }
 
-/// Are the numbers of the channel labels, between which there is nothing? Those of one byte may be
+/// Are the numbers of the channel labels, between which there is nothing? Those of one or two bytes may be
 /// brightness: they are labels if they are equal at most sides of faces.
 bool has_labels(const VertexChannel& channel, const std::vector<Triangle>& faces) {
   if (!is_integer(channel.type) || std::ranges::find(colour_names, channel.name) != colour_names.end())
     return false;
-  if (channel.type != NumberType::uint8 && channel.type != NumberType::int8) return true;
+  if (channel.type == NumberType::int32 || channel.type == NumberType::uint32) return true;
   std::size_t equal = 0;
   for (const Triangle& t : faces)
     for (std::size_t k = 0; k < 3; ++k) equal += channel.values[t[k]] == channel.values[t[(k + 1) % 3]];

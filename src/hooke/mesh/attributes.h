@@ -42,8 +42,8 @@ ChannelList channels_named(const VertexData& data, ChannelNames names);
 
 /// Interpolates all channels at the surface points of the map: linear in the faces, never beyond the values
 /// of their corners, integers rounded. Integers that are labels are those of the corner with the greatest
-/// weight: all but colours, and but bytes that differ at most sides of faces. Vertices on no face keep the
-/// value of their old vertex.
+/// weight: all but colours, and but those of one or two bytes that differ at most sides of faces. Vertices on
+/// no face keep the value of their old vertex.
 VertexData interpolate(const VertexData& data, const std::vector<MapEntry>& map,
                        const std::vector<Triangle>& faces);
 

@@ -16,7 +16,7 @@ constexpr int many = 100;                   // patches that are connected
 constexpr double little = .1;               // area, over the median of these
 constexpr double little_share = .05;        // minimum share of patches that have less
 constexpr double large = 20;                // area, over the median, beyond which it is a flat side
-constexpr double rounded_share = .5;        // minimum share of edges that turn by no more than rounding
+constexpr double rounded_share = .99;       // minimum share of edges that turn by no more than rounding
 constexpr double straight_share = .8;       // maximum share of edges that go on straight with the same turn
 constexpr std::ptrdiff_t many_levels = 24;  // that a coordinate takes, at least; parts have few heights
 constexpr double max_step = .2;             // of coordinates, in mean edges; a grid has longer ones
@@ -102,14 +102,16 @@ class Rounding {
 
   bool has_steps() const { return !steps_.isZero(); }
 
-  /// May it have turned the faces at this edge, which is none of the boundary, as much as they turn?
+  /// May it have turned the faces at this edge, which is none of the boundary, as much as they turn, or half
+  /// of that on a curved surface?
   bool explains(int edge) const {
+    constexpr double of_rounding = 2;
     double most = 0;  // radians
     for (const int f : c_.edge_faces[edge]) {
       const Vec3 area = doubled_area_vector(points_, c_.faces[f]);
       most += area.cwiseAbs().dot(steps_) * length(edge) / area.squaredNorm();  // step over height
     }
-    return turn(edge) <= most;
+    return turn(edge) <= of_rounding * most;
   }
 
   /// Does another edge go on straight at an end of this one, with the same turn?

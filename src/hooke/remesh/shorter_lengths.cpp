@@ -113,12 +113,12 @@ class SmoothParts {
   const AabbTree curves_;
 };
 
-/// A place where a result bends by an angle in degrees within a length: at most its target length, or that of
-/// its edges or the width of its faces there if these are shorter.
+/// A place where a result bends by an angle in degrees.
 struct Bend {
   Vec3 from, to;
   double angle;
-  double length;
+  double target;  // length there
+  double width;   // within which it bends: of its edges or faces there, at most that length
 };
 
 /// Where smooth parts of the input bend too much within an edge of the result.
@@ -141,7 +141,8 @@ std::vector<Bend> unresolved_bends(const AttemptMaker& maker, const Attempt& att
     double width = 0;  // mean of the faces
     for (int f : c.edge_faces[e])
       width += .5 * doubled_area_vector(surface.points, c.faces[f]).norm() / (to - from).norm();
-    unresolved.push_back({from, to, angle, std::min({lengths[v], lengths[w], width})});
+    const double target = std::min(lengths[v], lengths[w]);
+    unresolved.push_back({from, to, angle, target, std::min(target, width)});
   }
   for (int v = 0; v < c.vertex_count; ++v) {
     const std::optional<double> angle = bends.along(v);
@@ -149,7 +150,7 @@ std::vector<Bend> unresolved_bends(const AttemptMaker& maker, const Attempt& att
     if (!angle || *angle <= max_bend || !input.bends_less_along(x, smooth_share * *angle)) continue;
     double length = 0;  // mean of the edges
     for (int end : bends.ends(v)) length += .5 * (surface.points.col(end) - x).norm();
-    unresolved.push_back({x, x, *angle, std::min(lengths[v], length)});
+    unresolved.push_back({x, x, *angle, lengths[v], std::min(lengths[v], length)});
   }
   return unresolved;
 }
@@ -161,13 +162,19 @@ std::optional<AskedLengths> ShorterLengths::resolving_bends(const Attempt& attem
   if (static_cast<double>(bends.size()) < few_bends * static_cast<double>(attempt.mesh.n_edges()))
     return std::nullopt;
   constexpr double fine_bend = 33, coarser = 4. / 3, more_faces = 2;
-  for (double bend = fine_bend; bend < 2 * max_bend; bend *= coarser) {
+  const auto lengths_at = [&](double bend, double Bend::*length) {
     AskedLengths lengths = attempt.lengths;
     for (const Bend& b : bends)
-      lengths.shorter.push_back({b.from, b.to, b.length * std::min(1., bend / b.angle)});
-    const double most = bend > fine_bend ? more_faces * max_faces : max_faces;
-    if (faces_of(lengths, most) <= most) return lengths;
-  }
+      lengths.shorter.push_back({b.from, b.to, b.*length * std::min(1., bend / b.angle)});
+    return lengths;
+  };
+  for (const auto length : {&Bend::width, &Bend::target})
+    for (double bend = fine_bend; bend < 2 * max_bend; bend *= coarser) {
+      AskedLengths lengths = lengths_at(bend, length);
+      const bool may_be_more = length == &Bend::width && bend > fine_bend;
+      const double most = may_be_more ? more_faces * max_faces : max_faces;
+      if (faces_of(lengths, most) <= most) return lengths;
+    }
   return std::nullopt;
 }
 

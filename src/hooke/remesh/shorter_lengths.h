@@ -23,7 +23,8 @@ class ShorterLengths {
   /// one: by more than 45 degrees across an edge that is no crease, or along a crease or boundary at a
   /// vertex, where the input bends by less than .85 of that. So short that it would be 33 degrees or, if
   /// these lengths took more than `max_faces`, 44, 59 or 78, the first with which they do not take twice as
-  /// many. None if all do, or if hardly an edge bends so.
+  /// many; if all do, by the target lengths there, though edges are shorter already. None if all take too
+  /// many faces, or if hardly an edge bends so.
   std::optional<AskedLengths> resolving_bends(const Attempt& attempt, double max_faces) const;
 
   /// The number of faces that these lengths take, or more than `enough`.
