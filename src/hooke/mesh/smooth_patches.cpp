@@ -51,7 +51,7 @@ struct Group {
   /// The area up to which patches are part of a smooth surface; 0 if none are.
   double max_area() {
     const bool rounded = is_rounded();
-    if (areas.empty() || (polygons < many && !rounded)) return 0;
+    if (polygons < many && !rounded) return 0;
     const auto middle = areas.begin() + std::ssize(areas) / 2;
     std::ranges::nth_element(areas, middle);
     const double median = *middle;
@@ -91,6 +91,7 @@ double step_of(const Eigen::RowVectorXd& numbers, double least) {
 class Rounding {
  public:
   Rounding(const Mat3X& points, const Adjacency& c) : points_(points), c_(c) {
+    if (c.edges.empty()) return;
     double mean = 0;
     for (const auto& [a, b] : c.edges) mean += (points.col(a) - points.col(b)).norm();
     mean /= static_cast<double>(c.edges.size());
@@ -172,10 +173,18 @@ std::vector<char> faces_in_smooth_patches(const Mat3X& points, const Adjacency& 
     const auto& [left, right] = c.edge_faces[e];
     if (!patch_at(left).has_sharp_edge && !patch_at(right).has_sharp_edge) group_of.join({left, right});
   }
-  std::vector<Group> groups(c.faces.size());
+  std::vector<Group> groups;
+  std::vector<int> number(c.faces.size(), -1);  // of the group that the face stands for
+  const auto number_of = [&](int face) -> int& { return number[group_of.root(face)]; };
+  const auto group_at = [&](int face) -> Group& { return groups[number_of(face)]; };
   for (std::size_t f = 0; f < patches.size(); ++f) {
     if (patches[f].faces == 0 || patches[f].has_sharp_edge) continue;
-    Group& group = groups[group_of.root(static_cast<int>(f))];
+    int& of_group = number_of(static_cast<int>(f));
+    if (of_group < 0) {
+      of_group = static_cast<int>(groups.size());
+      groups.emplace_back();
+    }
+    Group& group = groups[of_group];
     group.polygons += patches[f].faces > 2;
     group.areas.push_back(patches[f].area);
   }
@@ -185,7 +194,7 @@ std::vector<char> faces_in_smooth_patches(const Mat3X& points, const Adjacency& 
       if (flat[e] || c.is_boundary_edge(e)) continue;
       const auto& [left, right] = c.edge_faces[e];
       if (patch_at(left).has_sharp_edge || patch_at(right).has_sharp_edge) continue;
-      Group& group = groups[group_of.root(left)];
+      Group& group = group_at(left);
       ++group.edges;
       group.rounded_edges += rounding.explains(e);
       group.straight_edges += rounding.is_straight(e);
@@ -193,7 +202,7 @@ std::vector<char> faces_in_smooth_patches(const Mat3X& points, const Adjacency& 
     for (int v = 0; v < c.vertex_count; ++v) {
       const auto faces = c.vertex_faces[v];
       if (!faces.empty() && !patch_at(faces[0]).has_sharp_edge)
-        rounding.add_levels(v, groups[group_of.root(faces[0])].levels);
+        rounding.add_levels(v, group_at(faces[0]).levels);
     }
   }
   std::vector<double> max_areas;
@@ -202,7 +211,7 @@ std::vector<char> faces_in_smooth_patches(const Mat3X& points, const Adjacency& 
   for (std::size_t f = 0; f < marks.size(); ++f) {
     const auto face = static_cast<int>(f);
     const Patch& patch = patch_at(face);
-    marks[f] = patch.faces > 1 && !patch.has_sharp_edge && patch.area <= max_areas[group_of.root(face)];
+    marks[f] = patch.faces > 1 && !patch.has_sharp_edge && patch.area <= max_areas[number_of(face)];
   }
   return marks;
 }
