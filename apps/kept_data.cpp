@@ -241,11 +241,11 @@ void keep_seams(Settings& s, LoadedMesh& loaded, RunRecord& record) {
 }
 
 void carry_data(const Settings& s, LoadedMesh& loaded, const Original& original, RunRecord& record) {
+  if (loaded.face_data.empty() && loaded.corner_data.empty()) return;
   if (keeps_faces(s)) {
     if (!s.paper && s.keep == no_seams) warn_of_moved_borders(s, loaded, original, record);
     return;
   }
-  if (loaded.face_data.empty() && loaded.corner_data.empty()) return;
   const MemoryOrder &before = original.memory_order, &after = loaded.memory_order;
   Adjacency input = *before.adjacency, result = *after.adjacency;
   split_wedges(input, before.order.new_edges(record.result->input_creases));

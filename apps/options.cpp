@@ -114,7 +114,8 @@ CLI::Option* add_file(CLI::App& app, const char* name, std::filesystem::path& fi
 void add_target(CLI::App& app, Settings& s, RawOptions& raw) {
   app.add_option(
          "-L,--length", s.length_text,
-         "Target edge length: auto = sqrt(4 A / (sqrt 3 F)), mean = mean edge length, X in file units, "
+         "Target edge length: auto = sqrt(4 A / (sqrt 3 F)) of each connected part, mean = mean edge length, "
+         "X in file units, "
          "X% of the box's diagonal, Xx times auto; with --sizing it scales the lengths: auto and Xx to cover "
          "the area, others to that mean, sizing = as they are")
       ->type_name("auto|mean|sizing|X|X%|Xx")
