@@ -427,6 +427,23 @@ TEST(GridBevels, OfSliversAreNoEdgesUnlessAskedForOrNarrowerThanTheLength) {
   EXPECT_GT(creases_at(3, box), 100u);
 }
 
+/// A sheet with n x n low pyramids.
+test::Triangles studded_sheet(int n) {
+  test::Triangles t = test::grid(4 * n, test::flat);
+  const auto side = 4 * n + 1;
+  for (int v = 0; v < side * side; ++v)
+    if (v % side % 4 == 2 && v / side % 4 == 2) t.points(2, v) = .1 / n;
+  t.points *= 4 * n;
+  return t;
+}
+
+TEST(Features, OfManyStudsOnOneSheetTakeTimeInProportion) {
+  constexpr int n = 60;
+  const auto start = std::chrono::steady_clock::now();
+  EXPECT_GT(features_of(studded_sheet(n)).size(), n * n * 8u);
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(20));
+}
+
 TEST(GridBevels, ThatAreWideMayBeOfTheBody) {
   EXPECT_GT(creases_at(1, marched_box(.45)), 200u);
 }

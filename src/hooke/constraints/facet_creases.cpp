@@ -1,9 +1,11 @@
 #include "hooke/constraints/facet_creases.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -33,6 +35,34 @@ constexpr double strip_end_angle = .02;  // maximum difference of their ratio fr
 constexpr double flat_share = .6;
 constexpr double flatness =
     1e-6;  // maximum distance of a flat region from its plane, in diagonals of the mesh
+
+/// Of these vertices, which lie in a plane with this unit normal, those at the corners of their convex hull
+/// (the monotone chains of Andrew 1979).
+std::vector<int> corners_of_hull(const Mat3X& points, const std::vector<int>& vertices, const Vec3& normal) {
+  const Vec3 u = normal.unitOrthogonal(), v = normal.cross(u), origin = points.col(vertices[0]);
+  std::vector<std::array<double, 3>> in_plane;
+  for (int i : vertices) {
+    const Vec3 x = points.col(i) - origin;
+    in_plane.push_back({u.dot(x), v.dot(x), static_cast<double>(i)});
+  }
+  std::ranges::sort(in_plane);
+  std::vector<std::array<double, 3>> chain;
+  const auto turns_left = [&](const auto& x) {
+    const auto &a = chain[chain.size() - 2], &b = chain.back();
+    return (b[0] - a[0]) * (x[1] - b[1]) > (b[1] - a[1]) * (x[0] - b[0]);
+  };
+  std::vector<int> corners;
+  for (int half = 0; half < 2; ++half) {
+    chain.clear();
+    for (const auto& x : in_plane) {
+      while (chain.size() > 1 && !turns_left(x)) chain.pop_back();
+      chain.push_back(x);
+    }
+    for (const auto& x : chain) corners.push_back(static_cast<int>(x[2]));
+    std::ranges::reverse(in_plane);
+  }
+  return corners;
+}
 
 class FacetCreases {
  public:
@@ -99,7 +129,7 @@ class FacetCreases {
         return std::ranges::all_of(
             c_.faces[f], [&](int v) { return std::abs(normal.dot(X_.col(v) - origin)) <= tolerance; });
       };
-      const auto region = static_cast<int>(region_vertices_.size());
+      const auto region = static_cast<int>(region_hulls_.size());
       std::vector<int> members = {seed}, vertices;
       regions_[seed] = region;
       for (size_t i = 0; i < members.size(); ++i)
@@ -115,7 +145,7 @@ class FacetCreases {
         continue;
       }
       for (int f : members) vertices.insert(vertices.end(), c_.faces[f].begin(), c_.faces[f].end());
-      region_vertices_.push_back(std::move(vertices));
+      region_hulls_.push_back(corners_of_hull(X_, vertices, normal));
       const auto is_member = [&](int f) { return regions_[f] == region; };
       std::vector<int> borders;
       for (int f : members)
@@ -126,6 +156,7 @@ class FacetCreases {
           std::ranges::none_of(borders, [&](int e) { return angle_[e] > sharp_angle_; }));
       region_borders_.push_back(std::move(borders));
     }
+    region_exits_.resize(region_hulls_.size());
     size_t faces_in_regions = 0, faces_with_area = 0;
     for (size_t f = 0; f < regions_.size(); ++f) {
       if (!has_area(f)) continue;
@@ -160,8 +191,7 @@ class FacetCreases {
     const auto& [a, b] = c_.edges[edge];
     const Vec3 along = (X_.col(b) - X_.col(a)).normalized();
     double widest = 0;
-    for (int v : region_vertices_[region])
-      widest = std::max(widest, along.cross(X_.col(v) - X_.col(a)).norm());
+    for (int v : region_hulls_[region]) widest = std::max(widest, along.cross(X_.col(v) - X_.col(a)).norm());
     return widest / (.5 * (length_[a] + length_[b]));
   }
 
@@ -231,13 +261,17 @@ class FacetCreases {
 
   /// The width of the face or its region as a strip of a round body, in target lengths: the least distance of
   /// the ends of the edge from another one at which it bends on; for a gentle region its width, also where
-  /// its edges meet, at a corner of a polyhedron. Infinite if it is no strip: a round bends on at three edges
-  /// in a row, where a polyhedron may have two that are alike.
+  /// its edges meet, at a corner of a polyhedron. Infinite or more than is asked for if it is no strip: a
+  /// round bends on at three edges in a row, where a polyhedron may have two that are alike.
   double strip_width(int face, int edge) const {
     const int region = regions_[face];
+    if (is_gentle(region)) {
+      const double whole = width(face, region, edge);
+      if (whole > resolved_gentle_strip) return whole;
+    }
     const bool is_second = bends_on(other_face(edge, face), edge);
     double least = std::numeric_limits<double>::infinity();
-    for (int e : borders(face)) {
+    for (int e : is_second ? borders(face) : exits(face)) {
       if (!bends_on_at(region, edge, e)) continue;
       if (!is_second && !bends_on(face_beyond(e, face), e)) continue;
       if (is_gentle(region)) return width(face, region, edge);
@@ -262,6 +296,19 @@ class FacetCreases {
   std::span<const int> borders(int face) const {
     if (regions_[face] < 0) return c_.face_edges[face];
     return region_borders_[regions_[face]];
+  }
+
+  /// The edges around the face beyond which the surface bends on; around a region as far as that can be,
+  /// found once.
+  std::span<const int> exits(int face) const {
+    if (regions_[face] < 0) return c_.face_edges[face];
+    std::optional<std::vector<int>>& found = region_exits_[regions_[face]];
+    if (!found) {
+      found.emplace();
+      for (int e : borders(face))
+        if (angle_[e] <= max_facet_angle && bends_on(face_beyond(e, face), e)) found->push_back(e);
+    }
+    return *found;
   }
 
   int other_face(int edge, int face) const {
@@ -385,13 +432,14 @@ class FacetCreases {
   double sharp_angle_;
   double diagonal_ = box_of_faces(X_, c_.faces).diagonal().norm();
   const std::vector<char> is_in_smooth_patch_ = find_smooth_patches();  // by face
-  std::vector<int> regions_;                       // by face: its flat region, negative without one
-  std::vector<std::vector<int>> region_vertices_;  // of the flat regions
-  std::vector<std::vector<int>> region_borders_;   // the edges around them
-  std::vector<char> region_is_gentle_;             // is none of these sharp?
-  mutable std::vector<char> bends_on_;             // the answers of bends_on(), two per edge
-  std::vector<char> is_in_round_;                  // is the vertex of a round body?
-  bool flat_mesh_ = false;                         // are so many faces in flat regions that these are meant?
+  std::vector<int> regions_;                      // by face: its flat region, negative without one
+  std::vector<std::vector<int>> region_hulls_;    // corners of the convex hulls of the flat regions
+  std::vector<std::vector<int>> region_borders_;  // the edges around them
+  std::vector<char> region_is_gentle_;            // is none of these sharp?
+  mutable std::vector<std::optional<std::vector<int>>> region_exits_;  // see exits()
+  mutable std::vector<char> bends_on_;  // the answers of bends_on(), two per edge
+  std::vector<char> is_in_round_;       // is the vertex of a round body?
+  bool flat_mesh_ = false;              // are so many faces in flat regions that these are meant?
 };
 
 }  // namespace
