@@ -322,4 +322,60 @@ TEST(Preserve, SinglePrecisionThatTurnsFacesOverIsAnObstacle) {
   EXPECT_TRUE(test::has(result.obstacle, "single precision")) << result.obstacle;
 }
 
+const std::string msh2_text =
+    "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Comments\nby hand\n$EndComments\n$PhysicalNames\n2\n1 3 "
+    "\"rim\"\n2 7 \"lid\"\n$EndPhysicalNames\n$Nodes\n4\n10 0 0 0\n900  1.50 0\t0\n5 9 9 9\n3 1 1 0\n"
+    "$EndNodes\n$Elements\n3\n1 15 2 4 1 10\n2 1 2 3 1 10 900\n8 2 2 7 4 10 900 3\n$EndElements\n"
+    "$NodeData\n1\n\"T\"\n1\n0\n3\n0\n1\n1\n10 .5\n$EndNodeData\n";
+
+void move_second(Mat3X& points) {
+  points.col(1) = Vec3(1.25, 0, -.5);
+}
+
+TEST(Rewrite, MshKeepsNumbersOfNodesOtherElementsAndSections) {
+  const File file{MeshFormat::msh2, msh2_text};
+  EXPECT_EQ(edited(file, nothing), msh2_text);
+  EXPECT_EQ(edited(file, move_second), with(msh2_text, "900  1.50 0\t0", "900  1.25 0\t-0.5"));
+  const std::string text =
+      "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n2 4 2 90\n0 1 0 1\n90\n0 0 0\n2 9 0 3\n4\n2\n7\n"
+      "1.50 0 0\n2 2 2\n1 1 0\n$EndNodes\n$Elements\n1 1 1 1\n2 9 2 1\n1 90 4 7\n$EndElements\n";
+  EXPECT_EQ(edited({MeshFormat::msh, text}, move_second), with(text, "1.50 0 0", "1.25 0 -0.5"));
+}
+
+TEST(Rewrite, MshKeepsBinaryFilesOfBothByteOrders) {
+  for (const std::endian order : {std::endian::little, std::endian::big}) {
+    const auto file = [&](const Vec3& second) {
+      Bytes bytes{order};
+      bytes.text = "$MeshFormat\n2.2 1 8\n";
+      bytes(NumberType::int32, {1}).text += "\n$EndMeshFormat\n$Nodes\n3\n";
+      bytes(NumberType::int32, {10})(NumberType::float64, {0, 0, 0});
+      bytes(NumberType::int32, {12})(NumberType::float64, {second[0], second[1], second[2]});
+      bytes(NumberType::int32, {11})(NumberType::float64, {0, 1, 0}).text += "\n$EndNodes\n$Elements\n2\n";
+      bytes(NumberType::int32, {15, 1, 1, 1, 4, 10});
+      bytes(NumberType::int32, {2, 1, 2, 2, 6, 9, 10, 12, 11}).text += "\n$EndElements\n";
+      return File{MeshFormat::msh2, bytes.text};
+    };
+    EXPECT_EQ(edited(file({1, 0, 0}), nothing), file({1, 0, 0}).bytes);
+    EXPECT_EQ(edited(file({1, 0, 0}), move_second), file({1.25, 0, -.5}).bytes);
+  }
+}
+
+TEST(Rewrite, MshIsAnObstacleWhereMoreThanItsPolygonsDependsOnItsNodes) {
+  const auto obstacle = [](const std::string& before, const std::string& after) {
+    const File file{MeshFormat::msh2, with(msh2_text, before, after)};
+    return rewrite_mesh(file.bytes, "m", file.format, parse(file).points).obstacle;
+  };
+  EXPECT_EQ(obstacle("2 1 2 3 1 10 900", "2 8 2 3 1 10 900 5"),
+            "its second-order lines would not fit moved nodes");
+  EXPECT_EQ(obstacle("2 1 2 3 1 10 900", "2 4 2 3 1 10 900 3 5"), "its tetrahedra would not fit moved nodes");
+  EXPECT_EQ(
+      obstacle("$NodeData\n1\n\"T\"\n1\n0\n3\n0\n1\n1\n10 .5\n$EndNodeData", "$Periodic\n0\n$EndPeriodic"),
+      "its section $Periodic would not fit moved nodes");
+  const std::string text =
+      "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n1 3 1 3\n2 9 1 3\n1\n2\n3\n0 0 0 .5 .5\n1 0 0 .5 .5\n"
+      "0 1 0 .5 .5\n$EndNodes\n$Elements\n1 1 1 1\n2 9 2 1\n1 1 2 3\n$EndElements\n";
+  EXPECT_EQ(rewrite_mesh(text, "m", MeshFormat::msh, parse({MeshFormat::msh, text}).points).obstacle,
+            "its parametric coordinates would not fit moved nodes");
+}
+
 }  // namespace hooke::rewrite_test

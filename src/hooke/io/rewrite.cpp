@@ -17,15 +17,25 @@
 namespace hooke {
 
 bool can_rewrite(MeshFormat format) {
-  return format == MeshFormat::obj || format == MeshFormat::ply || format == MeshFormat::off;
+  return format != MeshFormat::stl && format != MeshFormat::vtp;
 }
 
 RewrittenMesh rewrite_mesh(std::string_view bytes, const std::string& name, MeshFormat format,
                            const Mat3X& points, bool texture_follows) {
   const std::string_view content = without_byte_order_mark(bytes);
-  RewrittenMesh result = format == MeshFormat::obj   ? rewrite_obj(content, name, points, texture_follows)
-                         : format == MeshFormat::ply ? rewrite_ply(content, name, points)
-                                                     : rewrite_off(content, name, points);
+  const auto rewrite = [&] {
+    switch (format) {
+      case MeshFormat::obj:
+        return rewrite_obj(content, name, points, texture_follows);
+      case MeshFormat::ply:
+        return rewrite_ply(content, name, points);
+      case MeshFormat::off:
+        return rewrite_off(content, name, points);
+      default:
+        return rewrite_msh(content, name, points);
+    }
+  };
+  RewrittenMesh result = rewrite();
   result.bytes.insert(0, bytes.substr(0, bytes.size() - content.size()));
   return result;
 }

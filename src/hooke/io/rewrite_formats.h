@@ -5,6 +5,9 @@
 
 namespace hooke {
 
+/// Elements of higher dimension or order, parametric coordinates and periodic nodes are obstacles.
+RewrittenMesh rewrite_msh(std::string_view bytes, const std::string& name, const Mat3X& points);
+
 RewrittenMesh rewrite_obj(std::string_view text, const std::string& name, const Mat3X& points,
                           bool texture_follows);
 

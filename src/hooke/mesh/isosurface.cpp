@@ -10,7 +10,7 @@ namespace hooke {
 namespace {
 
 constexpr double tolerance = .01;  // of a cell: files have few digits
-constexpr double min_share = .99;
+constexpr double min_share_on_planes = .99;
 
 /// The planes of a grid across one axis, at even distances.
 struct GridPlanes {
@@ -41,7 +41,7 @@ std::optional<GridPlanes> planes_across(Eigen::Index axis, const Mat3X& points, 
     widths.push_back(high - low);
   }
   const auto at =
-      widths.begin() + static_cast<std::ptrdiff_t>(min_share * static_cast<double>(widths.size()));
+      widths.begin() + static_cast<std::ptrdiff_t>(min_share_on_planes * static_cast<double>(widths.size()));
   std::ranges::nth_element(widths, at);
   const double widest = *at;  // but for a few faces of something else
   if (!(widest > 0)) return std::nullopt;
@@ -74,7 +74,7 @@ bool are_vertices_on(const Grid& grid, const Mat3X& points, const Adjacency& c) 
     ++on_edges;
     for (std::size_t axis = 0; axis < 3; ++axis) between[axis] += is_between[axis];
   }
-  return on_edges >= min_share * vertices &&
+  return on_edges >= min_share_on_planes * vertices &&
          std::ranges::count_if(between, [&](double count) { return count >= many * vertices; }) >= 2;
 }
 
@@ -93,7 +93,7 @@ bool are_faces_in_cells_of(const Grid& grid, const Mat3X& points, const Adjacenc
     if (is_in_one) cells.push_back(cell);
   }
   const auto faces = static_cast<double>(c.faces.size());
-  if (static_cast<double>(cells.size()) < min_share * faces) return false;
+  if (static_cast<double>(cells.size()) < min_share_on_planes * faces) return false;
   std::ranges::sort(cells);
   const auto distinct = std::unique(cells.begin(), cells.end()) - cells.begin();
   return faces <= few * static_cast<double>(distinct);
