@@ -256,6 +256,20 @@ class Attributes(CommandTest):
                 np.testing.assert_array_equal(done.attributes[name], expected[name])
                 self.assertEqual(done.attributes[name].dtype, given[name].dtype)
 
+    def test_that_are_labels_stay_what_they_are(self):
+        mesh = read(DATA / "torus.off")
+        sides = np.where(mesh.vertices[:, 0] > 0, -3, 1004)
+        flags = np.stack([mesh.vertices[:, 0] > 0, mesh.vertices[:, 1] > 0], axis=1).astype(np.uint8) * 7
+        brightness = (100 * (1 + mesh.vertices[:, 0] / np.abs(mesh.vertices).max())).astype(np.uint16)
+        given = {"side": sides, "flags": flags, "brightness": brightness}
+        write(self.folder / "in.ply", mesh.vertices, mesh.faces, {"side": sides.astype(np.int32)})
+        self.run_command("in.ply", "-o", "out.ply", "--connectivity", "adapt", "--effort", "fast", "-q")
+        done = remesh(mesh.vertices, mesh.faces, connectivity="adapt", effort="fast", attributes=given)
+        np.testing.assert_array_equal(done.attributes["side"], read(self.folder / "out.ply").attributes["side"])
+        self.assertEqual(set(done.attributes["side"]), {-3, 1004})
+        self.assertEqual(set(done.attributes["flags"].flat), {0, 7})
+        self.assertGreater(len(set(done.attributes["brightness"]) - set(brightness)), 0)
+
     def test_of_vertices_that_stay_are_exact(self):
         vertices, faces = torus()
         ids, held = 2 ** 60 + np.arange(len(vertices)), np.arange(0, len(vertices), 5)

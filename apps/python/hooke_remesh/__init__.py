@@ -90,8 +90,9 @@ def remesh(vertices: ArrayLike, faces: ArrayLike, length: Option = None,
     sizing        n target lengths, one per vertex; or as the command takes it: "curvature:0.1%" or a file
     edge_lengths  target lengths of single edges, with "fixed": a pair of k x 2 vertex ids and k lengths, or a file
     fix           ids of vertices that stay where they are, or a file of them
-    attributes    values of the vertices, n x ... each: "flip" and "adapt" interpolate them in the faces, integers are
-                  rounded, and of other types each vertex takes the value of the nearest corner
+    attributes    values of the vertices, n x ... each: "flip" and "adapt" interpolate them in the faces, integers
+                  rounded; labels - integers but red, green, blue and alpha, and but those of one or two bytes that
+                  differ at most sides of faces - and other types are those of the nearest corner
     face_attributes, corner_attributes
                   values of the faces, m x ..., and of their corners, m x 3 x ...; with "fixed", where faces stay
     map           whether to tell where the result's vertices lie on the input
@@ -130,7 +131,7 @@ def remesh(vertices: ArrayLike, faces: ArrayLike, length: Option = None,
     old_vertices, old_faces, swapped = origin or (None, None, None)
     where = None if keeps_faces else places
     result = Result(out_vertices, out_faces, Map(*places) if places and map else None, report,
-                    {name: carry_vertices(values, triangles, old_vertices, where) for name, values in of_vertices.items()},
+                    {name: carry_vertices(name, values, triangles, old_vertices, where) for name, values in of_vertices.items()},
                     {name: carry_faces(values, old_faces) for name, values in of_faces.items()},
                     {name: carry_corners(values, old_faces, swapped) for name, values in of_corners.items()})
     if isinstance(exception, KeyboardInterrupt):

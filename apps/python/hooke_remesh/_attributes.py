@@ -8,7 +8,21 @@ import numpy as np
 from numpy.typing import NDArray
 
 
-def carry_vertices(values: NDArray[Any], faces: NDArray[np.int32], old: NDArray[np.int32] | None,
+_COLOURS = ("red", "green", "blue", "alpha")
+
+
+def _are_labels(name: str, values: NDArray[Any], faces: NDArray[np.int32]) -> bool:
+    """Are these numbers labels, between which there is nothing? The rule of the command: integers but colours; those of
+    one or two bytes may be brightness, and are labels if they are equal at most sides of faces."""
+    if values.dtype.kind not in "iu" or name in _COLOURS:
+        return values.dtype.kind not in "fiu"
+    if values.dtype.itemsize > 2:
+        return True
+    corners = values[faces]
+    return bool(2 * np.count_nonzero(corners == np.roll(corners, 1, axis=1)) >= corners.size)
+
+
+def carry_vertices(name: str, values: NDArray[Any], faces: NDArray[np.int32], old: NDArray[np.int32] | None,
                    places: tuple[NDArray[np.int32], NDArray[np.int32], NDArray[np.float64]] | None) -> NDArray[Any]:
     """The values at the vertices of the result. `old`: the ids before a repair; `places`: the map, where vertices lie
     elsewhere on the input's faces."""
@@ -17,7 +31,7 @@ def carry_vertices(values: NDArray[Any], faces: NDArray[np.int32], old: NDArray[
     vertices, on_face, weights = places
     corners = values[faces[on_face]]
     nearest = np.take_along_axis(corners, weights.argmax(axis=1).reshape((-1,) + (1,) * (corners.ndim - 1)), axis=1)[:, 0]
-    if values.dtype.kind in "fiu":
+    if not _are_labels(name, values, faces):
         result = _interpolated(corners, weights)
         if values.dtype.kind != "f":
             result = np.sign(result) * np.floor(np.abs(result) + .5)
