@@ -109,9 +109,12 @@ std::string identity(const fs::path& path) {
 }  // namespace
 
 std::vector<MeshTask> plan_batch(const Settings& s) {
-  if (s.inputs.size() > 1 && !s.check && !names_folder(s.output))
-    throw Error(fmt::format("--output {}: one file for {} meshes; expected a folder; write {}/",
-                            printable(s.output.string()), s.inputs.size(), printable(s.output.string())));
+  if (s.inputs.size() > 1 && !s.check && !names_folder(s.output)) {
+    const std::string output = printable(s.output.string());
+    throw Error(fmt::format("--output {}: one {} for {} meshes; expected a folder; write {}/", output,
+                            output == "-" ? "stream" : "file", s.inputs.size(),
+                            output == "-" ? "FOLDER" : output));
+  }
   if (s.batch.suffix.find('/') != std::string::npos)
     throw Error("--suffix " + in_quotes(s.batch.suffix) + "; expected text without /");
   std::vector<MeshTask> tasks;

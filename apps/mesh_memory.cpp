@@ -90,7 +90,6 @@ double most_faces(const Settings& s) {
 }
 
 void require_memory(const Settings& s, std::size_t vertices, const RunRecord& record) {
-  if (s.memory_limit <= 0) return;
   const double count = static_cast<double>(vertices);
   double added = 0;
   if (!s.check && !s.paper && s.remesh.connectivity == ConnectivityMode::adapt && record.target.mean > 0)
@@ -98,16 +97,27 @@ void require_memory(const Settings& s, std::size_t vertices, const RunRecord& re
         std::max(record.target.faces, equilateral_faces(record.before.extent.area, record.target.mean)) / 2 -
         count;
   added = std::max(added, 0.);
-  const double needed = program_bytes + bytes_per_vertex(s) * count + bytes_per_new_vertex * added;
-  if (needed <= s.memory_limit * megabyte) return;
-  const double fits =
-      std::floor((s.memory_limit * megabyte - program_bytes) / (needed - program_bytes) * count);
+  if (s.memory_limit <= 0 && added == 0) return;
+  const double allowed = static_cast<double>(memory_allowed(s)),
+               of_input = program_bytes + bytes_per_vertex(s) * count,
+               needed = of_input + bytes_per_new_vertex * added;
+  if (needed <= allowed) return;
+  const auto remedy = [&]() -> std::string {
+    if (const double fits = std::floor((allowed - of_input) / bytes_per_new_vertex); added > 0 && fits > 0)
+      return fmt::format("a target length about {:.3g} times as long, or a higher limit",
+                         std::sqrt((count + added) / (count + fits)));
+    const double fits = std::floor((allowed - program_bytes) / (needed - program_bytes) * count);
+    return fits >= 1 ? fmt::format("a mesh of at most about {:.0f} vertices, or a higher limit", fits)
+                     : without_a_mesh();
+  };
   throw LimitError(
-      fmt::format("{}: needs about {:.0f} MB for {} vertices{}, --memory-limit allows {:g}; expected {}",
-                  name_of_input(s.input), std::ceil(needed / megabyte), vertices,
-                  added > 0 ? fmt::format(" and {:.0f} in the result", count + added) : "", s.memory_limit,
-                  fits >= 1 ? fmt::format("a mesh of at most about {:.0f} vertices, or a higher limit", fits)
-                            : without_a_mesh()));
+      fmt::format("{}: needs about {:.0f} MB for {} vertices{}, {}; expected {}", name_of_input(s.input),
+                  std::ceil(needed / megabyte), vertices,
+                  added > 0 ? fmt::format(" and {:.0f} in the result", count + added) : "",
+                  s.memory_limit > 0
+                      ? fmt::format("--memory-limit allows {:g}", s.memory_limit)
+                      : fmt::format("80 % of what is free are {:.0f} (--memory-limit)", allowed / megabyte),
+                  remedy()));
 }
 
 std::size_t memory_for(const std::filesystem::path& mesh, const Settings& s) {

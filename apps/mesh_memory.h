@@ -17,7 +17,7 @@ std::size_t memory_allowed(const Settings& settings);
 void require_memory_for_file(const Settings& settings);
 
 /// The same by the number of vertices; with `adapt` also by those of the result, once the record has the area
-/// of the mesh and its target length.
+/// of the mesh and its target length, and if these are more, also without --memory-limit.
 void require_memory(const Settings& settings, std::size_t vertices, const RunRecord& record);
 
 /// The number of faces of a result that fit into --memory-limit.

@@ -35,7 +35,8 @@ std::string reason_in_words(const RunRecord& run) {
     case StopReason::jammed:
       return "jammed: steps are accepted no more, or so short that the forces left get nowhere";
     case StopReason::interrupted:
-      return "interrupted: the best mesh so far";
+      return run.status == "time_limit" ? "the time is up: the best mesh so far"
+                                        : "interrupted: the best mesh so far";
   }
   return "";
 }

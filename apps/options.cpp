@@ -359,9 +359,8 @@ void add_run(CLI::App& app, Settings& s) {
       ->type_name("S");
   add_number(app, "--memory-limit", s.memory_limit,
              "Megabytes that the run may take; a mesh that would take more, by the size of its file or by "
-             "its vertices, is refused before the work, with exit code 8 (default: none is; dense splines "
-             "and several "
-             "inputs together take at most 80 % of what is free)",
+             "its vertices, is refused before the work, with exit code 8 (default: none is for its own size; "
+             "new faces, dense splines and several inputs together take at most 80 % of what is free)",
              positive)
       ->type_name("MB");
   app.add_flag("-q,--quiet", s.quiet, "Print warnings and errors only");

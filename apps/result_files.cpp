@@ -101,7 +101,7 @@ MeshData data_of_result(const Settings& s, const LoadedMesh& loaded, const Origi
                         const Mat3X& points, PlyEncoding encoding, RunRecord& run) {
   FormatData vertices = vertex_data_of_result(s, loaded, original, points, run);
   FormatFaceData faces = face_data_for_format(loaded.face_data, loaded.format, *s.format, encoding);
-  MeshData result{std::move(vertices.data), std::move(faces.data), {}, {}};
+  MeshData result{std::move(vertices.data), std::move(faces.data), {}, {}, loaded.stl_header};
   if (s.format == MeshFormat::obj) {
     result.corners = corner_data_of_result(s, loaded, original);
     result.material_libraries = loaded.material_libraries;

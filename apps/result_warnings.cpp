@@ -31,6 +31,16 @@ std::string volume_change(const RunRecord& run) {
   return change ? fmt::format(", volume {:+.2g} %", 100 * *change) : "";
 }
 
+void warn_of_time(const Settings& s, RunRecord& run) {
+  if (run.status == "time_limit")
+    run.warnings.push_back(
+        {"time_limit",
+         fmt::format(
+             "{}: the time limit of {:g} s ended the work; {} is the best valid mesh so far; a longer "
+             "--time-limit or --effort fast would finish it",
+             run.input.path, s.time_limit, run.output->path)});
+}
+
 void warn_of_folds(RunRecord& run) {
   std::vector<int> folded = folded_faces(run);
   if (folded.empty()) return;
@@ -474,6 +484,7 @@ void warn_of_inside_out(RunRecord& run) {
 void add_result_warnings(const Settings& s, const TriMesh& mesh, RunRecord& run) {
   const std::vector<Warning> earlier = std::exchange(run.warnings, {});
   warn_of_promises(run);
+  warn_of_time(s, run);
   warn_of_distance(s, run);
   warn_of_crossings(run);
   warn_of_folds(run);

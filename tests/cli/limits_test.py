@@ -43,6 +43,7 @@ class Limits(CommandTest):
     def test_the_time_is_up_at_once(self):
         report = self.report("torus.off", "-o", "out.off", "-q", "--time-limit", "1e-6")
         self.assertEqual(report["status"], "time_limit")
+        self.assertIn("time_limit", [w["code"] for w in report["warnings"]])
 
     def test_a_mesh_beyond_the_memory_is_refused_with_what_would_fit(self):
         err = self.refused(8, "torus.off", "-o", "out.off", "--memory-limit", "40", names="torus.off", says="20000 vertices")
@@ -50,6 +51,11 @@ class Limits(CommandTest):
         err = self.refused(8, "torus.off", "-o", "out.off", "--connectivity", "adapt", "-L", ".2x", "--memory-limit", "200",
                            names="torus.off", says="in the result")
         self.run_command("torus.off", "-o", "out.off", "-q", "--memory-limit", "100")
+
+    def test_more_new_faces_than_fit_into_the_machine_are_refused(self):
+        err = self.refused(8, "torus.off", "-o", "out.off", "--connectivity", "adapt", "-L", ".0001x",
+                           names="torus.off", says="80 % of what is free")
+        self.assertRegex(err, r"expected a target length about [\d.]+ times as long")
 
     def test_a_file_too_large_is_refused_before_it_is_read(self):
         (self.folder / "broken.off").write_bytes(b"OFF no mesh" + bytes(2**20))

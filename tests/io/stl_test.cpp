@@ -135,6 +135,17 @@ TEST(Stl, SeveralSolidsAreGroupsWithTheirNames) {
   EXPECT_EQ(read_stl(written, "m").face_data[0].values, file.face_data[0].values);
 }
 
+TEST(Stl, TheHeaderComesBackUnlessItWouldPassForText) {
+  for (const std::string start : {"COLOR=\x1\x2\x3\x4,MATERIAL=", "solid of another program"}) {
+    std::string bytes = binary("", 1, {facet});
+    bytes.replace(0, start.size(), start);
+    const MeshFile file = read_stl(bytes, "m");
+    const std::string written = write_stl(file.points, faces_of(file), file.encoding, {}, file.stl_header);
+    EXPECT_EQ(written.substr(0, 80) == bytes.substr(0, 80), start[0] == 'C');
+    EXPECT_TRUE(written.starts_with(start[0] == 'C' ? start : "binary STL  "));
+  }
+}
+
 TEST(Stl, BothZerosAreOneVertexAndTheFirstIsKept) {
   const MeshFile file =
       read_stl(binary("", 2, {{-0.f, 0, 0, 1, 0, 0, 0, 1, 0}, {1, 0, 0, 0, -0.f, 0, 1, 1, 0}}), "m");

@@ -101,6 +101,14 @@ MeshFormat format_of(const std::filesystem::path& path) {
 
 MeshFormat input_format_of(const std::filesystem::path& path) {
   if (const auto format = known_format(path)) return *format;
+  std::error_code error;
+  if (std::filesystem::is_directory(path, error))
+    throw InputError(name_of_file(path) + ": is a folder; expected a mesh file; name the files in it");
+  if (path.extension() == ".gz")
+    throw InputError(
+        name_of_file(path) +
+        ": is compressed; expected a mesh file; unpack it, or read it through a pipe: gzip -dc FILE "
+        "| hooke-remesh - --input-format FORMAT ...");
   throw InputError(
       name_of_file(path) +
       ": unknown format; expected .obj .ply .off .stl .msh .vtp; give --input-format, or convert the "

@@ -200,6 +200,7 @@ LoadedMesh read_mesh(const std::filesystem::path& path, Stopwatch* stopwatch, co
           std::move(face_data),
           std::move(corner_data),
           std::move(file.material_libraries),
+          std::move(file.stl_header),
           std::move(origin),
           std::move(file.notes),
           std::move(repairs),

@@ -28,6 +28,7 @@ struct LoadedMesh {
   FaceData face_data;                                        // of the triangles
   CornerData corner_data;                                    // of the triangles, where not of the vertices
   std::vector<std::string> material_libraries;               // see MeshFile
+  std::string stl_header;                                    // see MeshFile
   MeshOrigin origin;                                         // if the mesh was repaired
   Notes notes;                                               // see MeshFile
   Notes repairs;                                             // what the repair did

@@ -208,6 +208,7 @@ MeshFile read_binary(std::string_view bytes, const std::string& name) {
   MeshFile file;
   file.encoding = PlyEncoding::binary_little_endian;
   file.name = name;
+  file.stl_header = bytes.substr(0, header_size);
   const size_t count = facet_count(bytes);
   if (std::cmp_greater(count, std::numeric_limits<int>::max() / 3))
     throw LimitError(
@@ -308,8 +309,8 @@ std::string write_text(const Eigen::Ref<const Mat3X>& points, const std::vector<
 }
 
 std::string write_binary(const Mat3X& points, const std::vector<Triangle>& triangles,
-                         const FaceChannel* attributes) {
-  std::string bytes = "binary STL";
+                         const FaceChannel* attributes, const std::string& header) {
+  std::string bytes = header.empty() || header.starts_with("solid") ? "binary STL" : header;
   bytes.resize(header_size, ' ');
   bytes.reserve(size_of_facets(static_cast<std::uint32_t>(triangles.size())));
   const auto append = [&](auto value) {
@@ -338,10 +339,10 @@ void require_floats(const Eigen::Ref<const Mat3X>& points) {
 }  // namespace
 
 std::string write_stl(const Eigen::Ref<const Mat3X>& points, const std::vector<Triangle>& triangles,
-                      PlyEncoding encoding, const FaceData& data) {
+                      PlyEncoding encoding, const FaceData& data, const std::string& header) {
   if (encoding == PlyEncoding::ascii) return write_text(points, triangles, Groups(data));
   require_floats(points);
-  return write_binary(rounded_to_floats(points), triangles, find_channel(data, attribute_channel));
+  return write_binary(rounded_to_floats(points), triangles, find_channel(data, attribute_channel), header);
 }
 
 Warnings losses_in_stl(const Eigen::Ref<const Mat3X>& points, const std::vector<Triangle>& triangles,

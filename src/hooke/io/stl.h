@@ -23,9 +23,10 @@ MeshFile read_stl(std::string_view bytes, const std::string& name);
 
 /// The bytes of an STL file, with the normals of its facets, zero for those without area. Text reads back
 /// exactly, with a solid for each run of faces of one `group`. Binary files hold coordinates rounded to
-/// 32-bit floats and the `attribute`. Throws OutputError if a coordinate is beyond the range of floats.
+/// 32-bit floats, the `attribute`, and the header, as long as it cannot be taken for text. Throws OutputError
+/// if a coordinate is beyond the range of floats.
 std::string write_stl(const Eigen::Ref<const Mat3X>& points, const std::vector<Triangle>& triangles,
-                      PlyEncoding encoding, const FaceData& data = {});
+                      PlyEncoding encoding, const FaceData& data = {}, const std::string& header = {});
 
 /// What the mesh loses in an STL file: the warning `vertices_coincide` if different vertices of its faces
 /// have the same coordinates there, so that a reader joins them; `faces_turned_by_rounding` if its numbers

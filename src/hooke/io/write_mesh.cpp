@@ -32,7 +32,7 @@ std::string bytes_of(const Eigen::Ref<const Mat3X>& points, const std::vector<Tr
     case MeshFormat::off:
       return write_off(points, triangles, data.vertices);
     case MeshFormat::stl:
-      return write_stl(points, triangles, encoding, data.faces);
+      return write_stl(points, triangles, encoding, data.faces, data.stl_header);
     case MeshFormat::msh:
     case MeshFormat::msh2:
       return write_msh(points, triangles, format, data.faces);

@@ -21,6 +21,7 @@ struct MeshData {
   FaceData faces = {};      // by triangle
   CornerData corners = {};  // of the triangles; takes precedence over texture and normals of the vertices
   std::vector<std::string> material_libraries = {};
+  std::string stl_header = {};  // see MeshFile
 };
 
 /// The bytes of a mesh file; `encoding` applies to PLY and STL only. Coordinates

@@ -50,8 +50,8 @@ const ReportKey* find_report_key(const std::string& path) {
 
 std::string nearest_number(const std::string& path) {
   const std::string block = path.substr(0, path.find('.')) + ".";
-  const bool is_block =
-      std::ranges::any_of(report_keys(), [&](const ReportKey& key) { return key.path.starts_with(block); });
+  const bool is_block = std::ranges::any_of(
+      report_keys(), [&](const ReportKey& key) { return is_number(key) && key.path.starts_with(block); });
   std::string nearest;
   size_t least = std::string::npos;
   for (const ReportKey& key : report_keys())
