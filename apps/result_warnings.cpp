@@ -68,11 +68,11 @@ void warn_of_crossings(RunRecord& run) {
                    only_there ? ", all where the surface crosses itself already" : "")});
 }
 
-/// Has a closed body lost or gained more than a twentieth of its volume, as a thin tube of long edges does?
+/// Has a closed body lost or gained more than a fiftieth of its volume, as a thin tube of long edges does?
 /// No if that is less than a hundredth of a natural length all over, as where two sheets enclose nearly
 /// nothing.
 bool changes_volume(const RunRecord& run) {
-  constexpr double max_share = .05, min_lengths = .01;
+  constexpr double max_share = .02, min_lengths = .01;
   const double change = std::abs(run.deviation->volume_change.value_or(0));
   return change > max_share && change * std::abs(run.before.extent.volume.value_or(0)) >
                                    min_lengths * run.target.natural * run.before.extent.area;
@@ -99,6 +99,22 @@ void warn_of_distance(const Settings& s, RunRecord& run) {
       {"surface_left",
        fmt::format("{}: its surface and that of {} are up to {} apart{}; try {}", run.output->path,
                    run.input.path, with_share(distance, run), volume_change(run), remedy())});
+}
+
+/// Warns if bends of the result are sharp where the input is smooth, unless so few of its edges are that it
+/// hardly matters.
+void warn_of_bends(RunRecord& run) {
+  constexpr double few = .001;  // of all edges
+  const RemeshResult& result = *run.result;
+  if (result.sharp_bends <= few * 1.5 * run.after->topology.faces) return;
+  run.warnings.push_back(
+      {"sharp_bends",
+       fmt::format(
+           "{}: {} edges turn by more than 60 degrees, up to {:.0f} near {:.6g}, where {} is smooth: "
+           "narrow parts have lost some of their section; --sizing curvature, which makes edges shorter "
+           "there, or a smaller --length follows them",
+           run.output->path, result.sharp_bends, result.sharpest_bend, fmt::join(result.sharpest_place, " "),
+           run.input.path)});
 }
 
 void warn_of_count(RunRecord& run) {
@@ -486,6 +502,7 @@ void add_result_warnings(const Settings& s, const TriMesh& mesh, RunRecord& run)
   warn_of_promises(run);
   warn_of_time(s, run);
   warn_of_distance(s, run);
+  warn_of_bends(run);
   warn_of_crossings(run);
   warn_of_folds(run);
   run.warnings.insert(run.warnings.end(), earlier.begin(), earlier.end());

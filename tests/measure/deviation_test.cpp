@@ -59,14 +59,15 @@ TEST(Deviation, RmsIntegratesQuadraticsExactly) {
 }
 
 TEST(Deviation, OfConcentricSpheresIsTheGap) {
-  const test::Triangles inner = test::sphere(4);
-  test::Triangles outer = inner;
+  test::Triangles inner = test::sphere(4), outer = inner;
   outer.points *= 1.5;
   const Deviation d = measure(inner, outer);
   EXPECT_NEAR(d.to_reference.max, .5, .01);
   EXPECT_NEAR(d.from_reference.rms, .5, .01);
   EXPECT_NEAR(*d.area_change, 1.25, 1e-12);
   EXPECT_NEAR(*d.volume_change, 2.375, 1e-12);
+  inner.points *= -1, outer.points *= -1;
+  EXPECT_NEAR(*measure(inner, outer).volume_change, 2.375, 1e-12) << "inside out";
   EXPECT_FALSE(d.boundary_to_reference);
 }
 

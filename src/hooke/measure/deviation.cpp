@@ -460,7 +460,7 @@ double max_distance(const Mat3X& points, const std::vector<Triangle>& segments, 
 
 std::optional<double> relative_change(std::optional<double> before, std::optional<double> after) {
   if (!before || !after || *before == 0) return std::nullopt;
-  return (*after - *before) / std::abs(*before);
+  return (*after - *before) / *before;
 }
 
 }  // namespace

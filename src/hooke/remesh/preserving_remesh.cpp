@@ -12,6 +12,7 @@
 #include "hooke/mesh/mesh.h"
 #include "hooke/mesh/normals.h"
 #include "hooke/remesh/attempts.h"
+#include "hooke/remesh/bends.h"
 #include "hooke/remesh/flaws.h"
 #include "hooke/remesh/kept_faces.h"
 #include "hooke/remesh/limiting_factors.h"
@@ -56,6 +57,7 @@ class PreservingRemesh {
     if (!is_done(best)) leave_as_it_was(best);
     resolve_bends(start, best);
     if (best.result.rescue == Rescue::put_back) best.result.refused_distance = refused_distance_;
+    if (!is_of_part()) note_bends(best);
     if (!best.lengths.shorter.empty()) best.result.shortened = shorter_.count_in(best);
     if (!maker_.adapts() && vertex_points(best.mesh) == maker_.as_written(vertex_points(maker_.mesh())))
       best.result.steps = MaskSteps::none;
@@ -86,6 +88,17 @@ class PreservingRemesh {
     if (!is_valid(best) && !maker_.adapts()) put_back(best);
     if (!best.is_interrupted() && !maker_.smooths_mask()) take_back_slivers(maker_, best);
     return best;
+  }
+
+  void note_bends(Attempt& best) const {
+    constexpr double sharp = 60;  // degrees: of a hexagon
+    if (!best.result.measures || best.is_interrupted() || best.result.rescue == Rescue::put_back) return;
+    for (const Bend& bend : unresolved_bends(maker_, best, sharp)) {
+      ++best.result.sharp_bends;
+      if (bend.angle <= best.result.sharpest_bend) continue;
+      best.result.sharpest_bend = bend.angle;
+      best.result.sharpest_place = .5 * (bend.from + bend.to);
+    }
   }
 
   /// Has it, in modes `fixed` and `flip`, so many slivers that other lengths may do better? Those with a

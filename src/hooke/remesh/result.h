@@ -94,6 +94,10 @@ struct RemeshResult {
   /// How far the first attempt was from the input, if that alone broke a promise and vertices were put back;
   /// in the unit of the points.
   double refused_distance = 0;
+  /// Bends by more than 60 degrees within an edge where the input is smooth, see unresolved_bends().
+  int sharp_bends = 0;
+  double sharpest_bend = 0;            // degrees
+  Vec3 sharpest_place = Vec3::Zero();  // its middle
   int rescued_shells = 0;  // that were remeshed by themselves and for which that holds; 0: for the whole
   /// Vertices at which preserving_remesh() took less than .8 of the target length asked for, so that the
   /// surface is kept.

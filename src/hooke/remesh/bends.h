@@ -1,0 +1,26 @@
+// Where a result turns sharply within an edge though its input is smooth there, as narrow parts of long edges
+// do.
+#pragma once
+
+#include <vector>
+
+#include "hooke/core/types.h"
+
+namespace hooke {
+
+class AttemptMaker;
+struct Attempt;
+
+/// A place where a result bends by an angle in degrees.
+struct Bend {
+  Vec3 from, to;
+  double angle;
+  double target;  // length there
+  double width;   // within which it bends: of its edges or faces there, at most that length
+};
+
+/// The bends of a result by more than `max_bend` degrees, across an edge that is no crease or along a crease
+/// or boundary at a vertex, where the input bends by less than .85 of that.
+std::vector<Bend> unresolved_bends(const AttemptMaker& maker, const Attempt& attempt, double max_bend);
+
+}  // namespace hooke
