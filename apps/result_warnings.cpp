@@ -216,6 +216,12 @@ void warn_of_rescue(RunRecord& run) {
         run.result->vertex_limits, [](unsigned char limits) { return limits & VertexLimit::put_back; });
     const int parts = run.result->rescued_shells;
     const std::string of_parts = parts > 0 ? fmt::format(" of {} of its connected parts", parts) : "";
+    constexpr double margin = 1.2;
+    const double distance = run.result->refused_distance / run.deviation->diagonal;
+    const std::string allowing =
+        distance > 0 ? fmt::format("--max-distance {:.2g}% allows what was {:.2g} % of the size away",
+                                   100 * margin * distance, 100 * distance)
+                     : "";
     switch (run.result->rescue) {
       case Rescue::none:
         return "";
@@ -239,22 +245,17 @@ void warn_of_rescue(RunRecord& run) {
                       "{} of {} vertices were put back to where they were, with the faces of the input,",
                       count, run.result->vertex_limits.size())
                 : "it has the faces of the input";
-        constexpr double margin = 1.2;
-        const double distance = run.result->refused_distance / run.deviation->diagonal;
         return fmt::format(
             "{} to keep its surface and the angles of its faces; {}--connectivity adapt, which makes new "
             "vertices and triangles, can do more",
-            what,
-            distance > 0
-                ? fmt::format("--max-distance {:.2g}% allows what was {:.2g} % of the size away, and ",
-                              100 * margin * distance, 100 * distance)
-                : "");
+            what, allowing.empty() ? "" : allowing + ", and ");
       }
       case Rescue::kept_faces:
         return fmt::format(
             "{} of {} vertices and the faces between them are those of {}, where others would not keep its "
-            "surface, as at folds and self-intersections",
-            count, run.result->vertex_limits.size(), run.input.path);
+            "surface{}",
+            count, run.result->vertex_limits.size(), run.input.path,
+            allowing.empty() ? ", as at folds and self-intersections" : "; " + allowing);
     }
     return "";
   };

@@ -288,6 +288,17 @@ void AttemptMaker::judge(Attempt& a) const {
   a.result.measures = std::make_shared<ResultMeasures>(std::move(m));
 }
 
+std::size_t AttemptMaker::flaws_within(double max_distance, const Attempt& a) const {
+  const ResultMeasures& m = *a.result.measures;
+  PreservationOptions within = preservation_;
+  within.max_distance = max_distance;
+  const std::vector<Edge> before = input_creases(a),
+                          after = a.result.memory_order.order.new_edges(a.result.crease_edges);
+  return measure_preservation({input_, m.input_quality, before}, {surface_of(a), m.quality, after},
+                              m.deviation, within)
+      .flaws();
+}
+
 std::vector<Edge> AttemptMaker::input_creases(const Attempt& a) const {
   return memory_order_.order.new_edges(a.result.input_creases);
 }

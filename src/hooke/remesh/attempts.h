@@ -124,6 +124,9 @@ class AttemptMaker {
   /// Measures the result and compares it with the input.
   void judge(Attempt& attempt) const;
 
+  /// How many flaws a judged result would have with this maximum distance.
+  std::size_t flaws_within(double max_distance, const Attempt& attempt) const;
+
   /// The creases of the input that the attempt found, as vertices of its adjacency.
   std::vector<Edge> input_creases(const Attempt& attempt) const;
 

@@ -56,7 +56,8 @@ class PreservingRemesh {
       take_lengths_of_input(start, best);
     if (!is_done(best)) leave_as_it_was(best);
     resolve_bends(start, best);
-    if (best.result.rescue == Rescue::put_back) best.result.refused_distance = refused_distance_;
+    if (best.result.rescue == Rescue::put_back || best.result.rescue == Rescue::kept_faces)
+      best.result.refused_distance = refused_distance_;
     if (!is_of_part()) note_bends(best);
     if (!best.lengths.shorter.empty()) best.result.shortened = shorter_.count_in(best);
     if (!maker_.adapts() && vertex_points(best.mesh) == maker_.as_written(vertex_points(maker_.mesh())))
@@ -203,14 +204,17 @@ class PreservingRemesh {
     return next.is_better_than(run) ? std::move(next) : std::move(run);
   }
 
-  /// Notes how far the first attempt is from the input if nothing else is wrong with it.
+  /// Notes how far the first attempt is from the input if hardly anything else is wrong with it.
   void note_distance(const Attempt& run) {
     is_first_ = false;
     if (!run.result.measures) return;
     const Preservation& p = run.preservation();
-    if (p.flaws() == 0 || p.flaws() > p.far_vertices.size() + p.lost_vertices.size()) return;
+    if (p.far_vertices.empty() && p.lost_vertices.empty()) return;
     const Deviation& d = run.result.measures->deviation;
-    refused_distance_ = std::max({p.distance, d.to_reference.max, d.from_reference.max});
+    const double distance = std::max({p.distance, d.to_reference.max, d.from_reference.max}),
+                 few = few_vertices * input_.adjacency.vertex_count;
+    if (static_cast<double>(maker_.flaws_within(distance, run)) < few && !has_worse_faces(run))
+      refused_distance_ = distance;
   }
 
   /// Holds vertices of the input, as the tip of a cone, that a result has lost.

@@ -91,8 +91,8 @@ struct RemeshResult {
   /// Of preserving_remesh(), null if not measured; copies of the result share them.
   std::shared_ptr<ResultMeasures> measures;
   Rescue rescue = Rescue::none;
-  /// How far the first attempt was from the input, if that alone broke a promise and vertices were put back;
-  /// in the unit of the points.
+  /// How far the first attempt was from the input, if that alone broke a promise and vertices were put back
+  /// or faces kept; in the unit of the points.
   double refused_distance = 0;
   /// Bends by more than 60 degrees within an edge where the input is smooth, see unresolved_bends().
   int sharp_bends = 0;
