@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <map>
 #include <numeric>
@@ -11,10 +12,12 @@
 
 #include "hooke/constraints/seams.h"
 #include "hooke/io/carried_data.h"
+#include "hooke/mesh/attributes.h"
 #include "hooke/mesh/chart_places.h"
 #include "hooke/mesh/hard_edges.h"
 #include "hooke/mesh/mesh.h"
 #include "hooke/mesh/normals.h"
+#include "hooke/mesh/surface_point.h"
 #include "hooke/mesh/wedges.h"
 #include "hooke/springs/rest_ratios.h"
 #include "hooke/springs/sizing.h"
@@ -120,6 +123,54 @@ void warn_of_moved_borders(const Settings& s, const LoadedMesh& loaded, const Or
                                     : words.size() > 1 ? "the texture, materials or groups"
                                                        : "the texture",
                                     fmt::join(words, ","))});
+}
+
+/// Is it a value that goes with the surface? No normal, no texture, which has seams, and no number of its own
+/// for each vertex.
+bool is_of_places(const VertexChannel& channel, const std::vector<Triangle>& faces) {
+  const auto is_named = [&](const auto& names) {
+    return std::ranges::find(names, channel.name) != names.end();
+  };
+  if (is_named(normal_names) || is_named(texture_names)) return false;
+  const auto differs = [&](const Triangle& t) { return channel.values[t[0]] != channel.values[t[1]]; };
+  return !is_integer(channel.type) || is_named(colour_names) ||
+         2 * std::ranges::count_if(faces, differs) < std::ssize(faces);
+}
+
+/// Warns where faces stay if values of vertices that moved along are clearly others than the input has at
+/// their places.
+void warn_of_moved_values(const LoadedMesh& loaded, const Original& original, RunRecord& record) {
+  constexpr double clearly = .01;  // root mean square, of the range
+  const Permutation& order = loaded.memory_order.order;
+  const Adjacency& c = *original.memory_order.adjacency;
+  VertexData values;
+  for (const VertexChannel& channel : loaded.vertex_data)
+    if (VertexChannel here{channel.name, channel.type, order.gather(channel.values)};
+        is_of_places(here, c.faces))
+      values.push_back(std::move(here));
+  if (values.empty()) return;
+  const Mat3X after = order.gather(vertex_points(loaded.mesh));
+  std::vector<MapEntry> map(c.vertex_count);
+  for (int v = 0; v < c.vertex_count; ++v)
+    map[v] = {v, original.points.col(v) == after.col(v) ? SurfacePoint{}
+                                                        : locate(original.points, c, after.col(v), v)};
+  const VertexData there = interpolate(values, map, c.faces);
+  std::vector<std::string> moved;
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    const std::vector<double>& here = values[k].values;
+    double squares = 0;
+    for (std::size_t v = 0; v < here.size(); ++v) squares += std::pow(here[v] - there[k].values[v], 2);
+    const auto [least, most] = std::ranges::minmax(here);
+    const double share = std::sqrt(squares / static_cast<double>(here.size())) / (most - least);
+    if (share > clearly) moved.push_back(fmt::format("{} by {:.2g} %", values[k].name, 100 * share));
+  }
+  if (!moved.empty())
+    record.warnings.push_back(
+        {"values_moved",
+         fmt::format(
+             "{}: values of vertices went along with these, and differ from those at their new places: {} "
+             "of the range (rms); --connectivity flip and adapt take the values of the places",
+             record.input.path, fmt::join(moved, ", "))});
 }
 
 /// Warns if so many edges are seams, though the surface is smooth across them, that little can change.
@@ -241,6 +292,7 @@ void keep_seams(Settings& s, LoadedMesh& loaded, RunRecord& record) {
 }
 
 void carry_data(const Settings& s, LoadedMesh& loaded, const Original& original, RunRecord& record) {
+  if (keeps_faces(s)) warn_of_moved_values(loaded, original, record);
   if (loaded.face_data.empty() && loaded.corner_data.empty()) return;
   if (keeps_faces(s)) {
     if (!s.paper && s.keep == no_seams) warn_of_moved_borders(s, loaded, original, record);

@@ -94,6 +94,22 @@ class Attributes(CommandTest):
                         for value, expected in zip(row, texture_of(x, y)):
                             self.assertAlmostEqual(value, expected, 9)
 
+    def test_values_that_leave_their_places_with_fixed_faces_are_named(self):
+        mesh = read_mesh(DATA / "torus.off")
+        rows = ["ply", "format ascii 1.0", f"element vertex {len(mesh[0])}", *(f"property double {c}" for c in "xyz"),
+                "property float thickness", "property int id", "property int part", f"element face {len(mesh[1])}",
+                "property list uchar int vertex_indices", "end_header"]
+        rows += ["%r %r %r %r %d %d" % (x, y, z, x + y, v, x > 0) for v, (x, y, z) in enumerate(mesh[0])]
+        rows += ["3 %d %d %d" % tuple(face) for face in mesh[1]]
+        self.write("in.ply", "\n".join(rows) + "\n")
+        for mode in ("fixed", "adapt"):
+            report = self.report("in.ply", "-o", "out.ply", "-q", "--connectivity", mode)
+            told = [w["message"] for w in report["warnings"] if w["code"] == "values_moved"]
+            if mode == "fixed":
+                self.assertRegex(told[0], r"at their new places: thickness by [\d.]+ %, part by [\d.]+ % of the range \(rms\); ")
+            else:
+                self.assertEqual(told, [])
+
     def test_what_is_constant_stays_it_to_the_last_bit(self):
         vertices, faces = square()
         constant = [(.1, .7)] * len(vertices)
