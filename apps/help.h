@@ -49,7 +49,7 @@ inline constexpr std::array exit_meanings = {
     ExitMeaning{output_failed, "an output could not be written; older files are as they were"},
     ExitMeaning{gate_failed, "a condition of --require does not hold; the result is written"},
     ExitMeaning{numerical_failure, "numerical failure"},
-    ExitMeaning{limit_reached, "out of memory"},
+    ExitMeaning{limit_reached, "too little memory, or no valid mesh within --time-limit"},
     ExitMeaning{promise_broken, "the result would not keep what it must keep; it is not written"},
     ExitMeaning{interrupted, "interrupted: the best valid mesh so far is written"},
     ExitMeaning{terminated, "terminated: likewise"},

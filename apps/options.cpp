@@ -356,6 +356,7 @@ void add_run(CLI::App& app, Settings& s) {
              "Seconds after which the work ends with the best valid mesh so far, which is then measured and "
              "written (status time_limit); exit code 8 if there is none",
              positive)
+      ->default_str("none")
       ->type_name("S");
   add_number(app, "--memory-limit", s.memory_limit,
              "Megabytes that the run may take; a mesh that would take more, by the size of its file or by "

@@ -128,8 +128,9 @@ void warn_of_count(RunRecord& run) {
         {"face_count_missed",
          fmt::format(
              "{}: {} faces, where the target length asks for {:.0f}; edges that the surface, a boundary "
-             "or a fixed vertex needs stay; use a smaller length",
-             run.output->path, faces, expected)});
+             "or a fixed vertex needs stay{}",
+             run.output->path, faces, expected,
+             faces < expected ? "; use a smaller length" : ", though they are shorter")});
 }
 
 /// The rms length error that each mode can achieve on a mesh whose target lengths vary by a factor of four.
