@@ -104,14 +104,14 @@ void warn_of_distance(const Settings& s, RunRecord& run) {
 /// Warns if bends of the result are sharp where the input is smooth, unless so few of its edges are that it
 /// hardly matters.
 void warn_of_bends(RunRecord& run) {
-  constexpr double few = .001;  // of all edges
+  constexpr double few = .0025;  // of all edges
   const RemeshResult& result = *run.result;
   if (result.sharp_bends <= few * 1.5 * run.after->topology.faces) return;
   run.warnings.push_back(
       {"sharp_bends",
        fmt::format(
            "{}: {} edges turn by more than 60 degrees, up to {:.0f} near {:.6g}, where {} is smooth: "
-           "narrow parts have lost some of their section; --sizing curvature, which makes edges shorter "
+           "narrow or sharply curved parts are coarser there; --sizing curvature, which makes edges shorter "
            "there, or a smaller --length follows them",
            run.output->path, result.sharp_bends, result.sharpest_bend, fmt::join(result.sharpest_place, " "),
            run.input.path)});

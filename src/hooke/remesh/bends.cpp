@@ -53,7 +53,7 @@ class Bends {
   /// Does it bend by more than the angle anywhere?
   bool exceed(double angle) const {
     for (size_t e = 0; e < across_.size(); ++e)
-      if (across_[e] > angle && !is_on_curve_[e]) return true;
+      if (across_[e] > angle) return true;
     for (int v = 0; v < std::ssize(curve_ends_); ++v)
       if (along(v).value_or(0) > angle) return true;
     return false;
@@ -131,7 +131,7 @@ std::vector<Bend> unresolved_bends(const AttemptMaker& maker, const Attempt& att
   std::vector<Bend> unresolved;
   for (int e = 0; e < std::ssize(c.edges); ++e) {
     const double angle = bends.across(e);
-    if (angle <= max_bend || bends.is_on_curve(e)) continue;
+    if (angle <= max_bend) continue;
     const auto& [v, w] = c.edges[e];
     const Vec3 from = points.col(v), to = points.col(w);
     if (!input.bends_less_across(.5 * (from + to), maker.shell_of_vertex(v, attempt), smooth_share * angle,
@@ -141,7 +141,7 @@ std::vector<Bend> unresolved_bends(const AttemptMaker& maker, const Attempt& att
     for (int f : c.edge_faces[e])
       width += .5 * doubled_area_vector(points, c.faces[f]).norm() / (to - from).norm();
     const double target = std::min(lengths[v], lengths[w]);
-    unresolved.push_back({from, to, angle, target, std::min(target, width)});
+    unresolved.push_back({from, to, angle, target, std::min(target, width), bends.is_on_curve(e)});
   }
   for (int v = 0; v < c.vertex_count; ++v) {
     const std::optional<double> angle = bends.along(v);
@@ -149,7 +149,7 @@ std::vector<Bend> unresolved_bends(const AttemptMaker& maker, const Attempt& att
     if (!angle || *angle <= max_bend || !input.bends_less_along(x, smooth_share * *angle)) continue;
     double length = 0;  // mean of the edges
     for (int end : bends.ends(v)) length += .5 * (points.col(end) - x).norm();
-    unresolved.push_back({x, x, *angle, lengths[v], std::min(lengths[v], length)});
+    unresolved.push_back({x, x, *angle, lengths[v], std::min(lengths[v], length), false});
   }
   return unresolved;
 }

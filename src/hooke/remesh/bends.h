@@ -17,10 +17,11 @@ struct Bend {
   double angle;
   double target;  // length there
   double width;   // within which it bends: of its edges or faces there, at most that length
+  bool across_crease;
 };
 
-/// The bends of a result by more than `max_bend` degrees, across an edge that is no crease or along a crease
-/// or boundary at a vertex, where the input bends by less than .85 of that.
+/// The bends of a result by more than `max_bend` degrees, across an edge, or along a crease or boundary at a
+/// vertex, where the input bends by less than .85 of that.
 std::vector<Bend> unresolved_bends(const AttemptMaker& maker, const Attempt& attempt, double max_bend);
 
 }  // namespace hooke

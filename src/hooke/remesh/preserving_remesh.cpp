@@ -204,10 +204,11 @@ class PreservingRemesh {
     return next.is_better_than(run) ? std::move(next) : std::move(run);
   }
 
-  /// Notes how far the first attempt is from the input if hardly anything else is wrong with it.
+  /// Notes how far the first attempt is from the input if hardly anything else is wrong with it. Not in mode
+  /// `adapt`, where edges get shorter.
   void note_distance(const Attempt& run) {
     is_first_ = false;
-    if (!run.result.measures) return;
+    if (!run.result.measures || maker_.adapts()) return;
     const Preservation& p = run.preservation();
     if (p.far_vertices.empty() && p.lost_vertices.empty()) return;
     const Deviation& d = run.result.measures->deviation;

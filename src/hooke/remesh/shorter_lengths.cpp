@@ -17,7 +17,8 @@ namespace hooke {
 std::optional<AskedLengths> ShorterLengths::resolving_bends(const Attempt& attempt, double max_faces) const {
   constexpr double max_bend = 45;      // degrees, within an edge
   constexpr double few_bends = .0005;  // of all edges: not worth another attempt
-  const std::vector<Bend> bends = unresolved_bends(maker_, attempt, max_bend);
+  std::vector<Bend> bends = unresolved_bends(maker_, attempt, max_bend);
+  std::erase_if(bends, [](const Bend& b) { return b.across_crease; });  // may be several of the input in one
   if (static_cast<double>(bends.size()) < few_bends * static_cast<double>(attempt.mesh.n_edges()))
     return std::nullopt;
   constexpr double fine_bend = 33, coarser = 4. / 3, more_faces = 2;
