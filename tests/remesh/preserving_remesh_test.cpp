@@ -12,6 +12,7 @@
 #include "hooke/core/stopwatch.h"
 #include "hooke/geometry/aabb_tree.h"
 #include "hooke/geometry/triangle.h"
+#include "hooke/mesh/mirror.h"
 #include "hooke/mesh/normals.h"
 #include "hooke/remesh/limiting_factors.h"
 #include "hooke/remesh/options.h"
@@ -468,6 +469,20 @@ test::Triangles stretched_sphere() {
   t.points.row(1) *= .05;
   t.points.row(2) *= .02;
   return t;
+}
+
+TEST(PreservingRemesh, MirroredMeshesStayMirroredWithFixedFaces) {
+  test::Triangles egg = test::sphere(3);
+  for (auto x : egg.points.colwise())
+    x = Vec3(x[0] * (1 + .3 * x[0] * x[0]), .6 * x[1] + .2 * x[0] * x[0], 1.5 * x[2]).eval();
+  const test::Outcome outcome = preserved(egg, options_for(ConnectivityMode::fixed));
+  ASSERT_TRUE(outcome.result.measures->preservation.holds());
+  EXPECT_GT((outcome.points - egg.points).cwiseAbs().maxCoeff(), .01);
+  const std::vector<Mirror> mirrors = find_mirrors(egg.points, egg.faces);
+  ASSERT_EQ(mirrors.size(), 2u);
+  for (const Mirror& mirror : mirrors)
+    for (int v = 0; v < egg.points.cols(); ++v)
+      EXPECT_LT((mirror(outcome.points.col(v)) - outcome.points.col(mirror.image[v])).norm(), 1e-12);
 }
 
 TEST(PreservingRemesh, TellsTheDistanceThatItRefused) {

@@ -176,6 +176,11 @@ bool AttemptMaker::has_worse_faces(const Attempt& a, double margin) const {
   return a.result.measures->quality.shape.mean < least_mean_shape_ - margin;
 }
 
+std::vector<Mirror> AttemptMaker::mirrors() const {
+  const Mat3X points = vertex_points(mesh_);
+  return polygons_ != nullptr ? find_mirrors(points, *polygons_) : find_mirrors(points, triangles_of(mesh_));
+}
+
 bool AttemptMaker::has_worse_polygons(const Attempt& a) const {
   if (polygons_ == nullptr) return false;
   constexpr double rounding = 1e-3;  // degrees

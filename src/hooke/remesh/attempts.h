@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "hooke/measure/measured_surface.h"
+#include "hooke/mesh/mirror.h"
 #include "hooke/remesh/preserving_remesh.h"
 #include "hooke/springs/placed_lengths.h"
 
@@ -103,6 +104,9 @@ class AttemptMaker {
   /// Has the attempt worse faces on average than the input, by more than the margin of their shape? Of known
   /// polygons these tell.
   bool has_worse_faces(const Attempt& attempt, double margin = 0) const;
+
+  /// Those of the input, with its known polygons or its triangles.
+  std::vector<Mirror> mirrors() const;
 
   /// Have the known polygons worse angles on the whole than in the input?
   bool has_worse_polygons(const Attempt& attempt) const;
