@@ -475,7 +475,8 @@ TEST(PreservingRemesh, MirroredMeshesStayMirroredWithFixedFaces) {
   test::Triangles egg = test::sphere(3);
   for (auto x : egg.points.colwise())
     x = Vec3(x[0] * (1 + .3 * x[0] * x[0]), .6 * x[1] + .2 * x[0] * x[0], 1.5 * x[2]).eval();
-  const test::Outcome outcome = preserved(egg, options_for(ConnectivityMode::fixed));
+  RemeshOptions options = options_for(ConnectivityMode::fixed);
+  const test::Outcome outcome = preserved(egg, options);
   ASSERT_TRUE(outcome.result.measures->preservation.holds());
   EXPECT_GT((outcome.points - egg.points).cwiseAbs().maxCoeff(), .01);
   const std::vector<Mirror> mirrors = find_mirrors(egg.points, egg.faces);
@@ -483,6 +484,11 @@ TEST(PreservingRemesh, MirroredMeshesStayMirroredWithFixedFaces) {
   for (const Mirror& mirror : mirrors)
     for (int v = 0; v < egg.points.cols(); ++v)
       EXPECT_LT((mirror(outcome.points.col(v)) - outcome.points.col(mirror.image[v])).norm(), 1e-12);
+  ASSERT_NE(mirrors[0].image[20], 20);
+  for (const int held : {20, mirrors[0].image[20]}) {  // on one side
+    options.constraints.fixed_vertices = {held};
+    EXPECT_EQ(preserved(egg, options).points.col(held), egg.points.col(held));
+  }
 }
 
 TEST(PreservingRemesh, TellsTheDistanceThatItRefused) {

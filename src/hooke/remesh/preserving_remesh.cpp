@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "hooke/core/lists.h"
 #include "hooke/mesh/junctions.h"
 #include "hooke/mesh/mesh.h"
 #include "hooke/mesh/normals.h"
@@ -58,7 +59,7 @@ class PreservingRemesh {
     resolve_bends(start, best);
     if (best.result.rescue == Rescue::put_back || best.result.rescue == Rescue::kept_faces)
       best.result.refused_distance = refused_distance_;
-    keep_mirrors(best);
+    keep_mirrors(start.constraints, best);
     if (!is_of_part()) note_bends(best);
     if (!best.lengths.shorter.empty()) best.result.shortened = shorter_.count_in(best);
     if (!maker_.adapts() && vertex_points(best.mesh) == maker_.as_written(vertex_points(maker_.mesh())))
@@ -624,17 +625,45 @@ class PreservingRemesh {
 
   /// In mode `fixed`, gives one side of a mesh that mirrors map onto itself the mirrored places of the other,
   /// the one with the greater least angle, if that is hardly worse.
-  void keep_mirrors(Attempt& best) const {
+  void keep_mirrors(const ConstraintOptions& constraints, Attempt& best) const {
+    OpenMesh::EPropHandleT<double> of_edges;
+    if (maker_.mesh().get_property_handle(of_edges, edge_length_property)) return;
     if (options_.connectivity != ConnectivityMode::fixed || is_of_part() || !best.result.measures ||
         best.is_interrupted() || !input_.joined.empty())
       return;
     for (const Mirror& mirror : maker_.mirrors()) {
-      if (is_mirrored(mirror, best)) continue;
+      if (is_mirrored(mirror, best) || !is_asked_alike(mirror, constraints)) continue;
       Attempt mirrored = best;
       mirror_places(mirror, better_side(mirror, best), mirrored);
       maker_.judge(mirrored);
       if (is_hardly_worse(mirrored, best)) best = std::move(mirrored);
     }
+  }
+
+  /// Does the mirror map the lengths asked for, and what stays, onto each other?
+  bool is_asked_alike(const Mirror& mirror, const ConstraintOptions& constraints) const {
+    constexpr double rounding = 1e-6;
+    std::vector<double> length(asked_.size());  // by id
+    for (int v = 0; v < input_.adjacency.vertex_count; ++v) length[maker_.id_of(v)] = asked_[v];
+    for (size_t v = 0; v < length.size(); ++v)
+      if (std::abs(length[v] - length[mirror.image[v]]) > rounding * length[v]) return false;
+    const auto maps_vertices = [&](std::vector<int> ids) {
+      std::vector<int> images;
+      for (int id : ids) images.push_back(mirror.image[id]);
+      sort_unique(ids), sort_unique(images);
+      return ids == images;
+    };
+    const auto maps_edges = [&](std::vector<Edge> edges) {
+      std::vector<Edge> images;
+      for (Edge& e : edges) {
+        images.push_back({mirror.image[e[0]], mirror.image[e[1]]});
+        std::ranges::sort(e), std::ranges::sort(images.back());
+      }
+      std::ranges::sort(edges), std::ranges::sort(images);
+      return edges == images;
+    };
+    return maps_vertices(constraints.fixed_vertices) && maps_vertices(constraints.frozen_vertices) &&
+           maps_edges(constraints.seams) && maps_edges(constraints.hard_edges);
   }
 
   bool is_mirrored(const Mirror& mirror, const Attempt& run) const {
