@@ -132,9 +132,21 @@ bool is_of_places(const VertexChannel& channel, const std::vector<Triangle>& fac
     return std::ranges::find(names, channel.name) != names.end();
   };
   if (is_named(normal_names) || is_named(texture_names)) return false;
-  const auto differs = [&](const Triangle& t) { return channel.values[t[0]] != channel.values[t[1]]; };
-  return !is_integer(channel.type) || is_named(colour_names) ||
-         2 * std::ranges::count_if(faces, differs) < std::ssize(faces);
+  return !is_integer(channel.type) || is_named(colour_names) || is_equal_at_most_sides(channel, faces);
+}
+
+/// The root mean square of the differences of finite values of vertices with faces, of their range.
+double difference(const VertexChannel& here, const VertexChannel& there, const Adjacency& c) {
+  double squares = 0, count = 0;
+  Eigen::AlignedBox1d range;
+  for (int v = 0; v < c.vertex_count; ++v) {
+    const double difference = here.values[v] - there.values[v];
+    if (c.vertex_edges[v].empty() || !std::isfinite(difference)) continue;
+    squares += difference * difference;
+    range.extend(Eigen::Matrix<double, 1, 1>(here.values[v]));
+    ++count;
+  }
+  return count > 0 && range.volume() > 0 ? std::sqrt(squares / count) / range.volume() : 0;
 }
 
 /// Warns where faces stay if values of vertices that moved along are clearly others than the input has at
@@ -156,14 +168,9 @@ void warn_of_moved_values(const LoadedMesh& loaded, const Original& original, Ru
                                                         : locate(original.points, c, after.col(v), v)};
   const VertexData there = interpolate(values, map, c.faces);
   std::vector<std::string> moved;
-  for (std::size_t k = 0; k < values.size(); ++k) {
-    const std::vector<double>& here = values[k].values;
-    double squares = 0;
-    for (std::size_t v = 0; v < here.size(); ++v) squares += std::pow(here[v] - there[k].values[v], 2);
-    const auto [least, most] = std::ranges::minmax(here);
-    const double share = std::sqrt(squares / static_cast<double>(here.size())) / (most - least);
-    if (share > clearly) moved.push_back(fmt::format("{} by {:.2g} %", values[k].name, 100 * share));
-  }
+  for (std::size_t k = 0; k < values.size(); ++k)
+    if (const double share = difference(values[k], there[k], c); share > clearly)
+      moved.push_back(fmt::format("{} by {:.2g} %", values[k].name, 100 * share));
   if (!moved.empty())
     record.warnings.push_back(
         {"values_moved",
@@ -271,8 +278,29 @@ void set_rest_ratios(const Settings& s, LoadedMesh& loaded) {
       rest_ratios(loaded.polygons, loaded.memory_order, points, target_lengths_of(loaded.mesh, order, c)));
 }
 
+namespace {
+
+/// Holds the vertices of points in their places, and those of lines on these, as both are conditions there.
+void hold_marks(const LoadedMesh& loaded, ConstraintOptions& constraints) {
+  std::vector<int>& fixed = constraints.fixed_vertices;
+  fixed.insert(fixed.end(), loaded.marked_vertices.begin(), loaded.marked_vertices.end());
+  const Adjacency& c = *loaded.memory_order.adjacency;
+  const std::vector<Edge> ends = loaded.memory_order.order.new_edges(loaded.marked_edges);
+  for (std::size_t k = 0; k < ends.size(); ++k) {
+    const auto edges = c.vertex_edges[ends[k][0]];
+    const auto edge = std::ranges::find(edges, ends[k][1], [&](int e) { return c.other_end(e, ends[k][0]); });
+    if (edge == edges.end())
+      fixed.insert(fixed.end(), loaded.marked_edges[k].begin(), loaded.marked_edges[k].end());
+    else if (!c.is_boundary_edge(*edge))
+      constraints.seams.push_back(loaded.marked_edges[k]);
+  }
+}
+
+}  // namespace
+
 void keep_seams(Settings& s, LoadedMesh& loaded, RunRecord& record) {
   const bool faces_stay = keeps_faces(s);
+  if (faces_stay) hold_marks(loaded, s.remesh.constraints);
   if (faces_stay || s.keep.hard_edges)
     s.remesh.constraints.hard_edges = find_hard_edges(loaded.memory_order, loaded.corner_data.normals).ends;
   if (faces_stay && s.keep == no_seams) return;
@@ -285,7 +313,8 @@ void keep_seams(Settings& s, LoadedMesh& loaded, RunRecord& record) {
   Seams seams = find_seams(loaded.memory_order, loaded.corner_data, held.data, s.keep);
   warn_of_many_seams(seams, s, loaded, record);
   record.seam_edges = static_cast<int>(seams.edges.size());
-  s.remesh.constraints.seams = std::move(seams.ends);
+  std::vector<Edge>& kept = s.remesh.constraints.seams;
+  kept.insert(kept.end(), seams.ends.begin(), seams.ends.end());
   std::vector<int>& fixed = s.remesh.constraints.fixed_vertices;
   fixed.insert(fixed.end(), seams.poles.begin(), seams.poles.end());
   if (!faces_stay) s.remesh.map |= !loaded.face_data.empty() || !loaded.corner_data.empty();

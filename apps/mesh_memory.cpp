@@ -29,7 +29,7 @@ double equilateral_faces(double area, double edge) {
 }
 
 // Of the peaks measured with 10000 to 400000 vertices, in each mode. Reading takes 500 a vertex.
-constexpr double program_bytes = 12 * megabyte, bytes_per_new_vertex = 1200;
+constexpr double program_bytes = 12 * megabyte, bytes_per_new_vertex = 1450;
 
 double bytes_per_vertex(const Settings& s) {
   return s.check ? 900 : 2200;

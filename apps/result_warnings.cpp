@@ -37,7 +37,7 @@ void warn_of_time(const Settings& s, RunRecord& run) {
         {"time_limit",
          fmt::format(
              "{}: the time limit of {:g} s ended the work; {} is the best valid mesh so far; a longer "
-             "--time-limit or --effort fast would finish it",
+             "--time-limit goes on",
              run.input.path, s.time_limit, run.output->path)});
 }
 
@@ -104,14 +104,15 @@ void warn_of_distance(const Settings& s, RunRecord& run) {
 /// Warns if bends of the result are sharp where the input is smooth, unless so few of its edges are that it
 /// hardly matters.
 void warn_of_bends(RunRecord& run) {
-  constexpr double few = .0025;  // of all edges
+  constexpr double few = .0025, at_least = 4;  // of all edges
   const RemeshResult& result = *run.result;
-  if (result.sharp_bends <= few * 1.5 * run.after->topology.faces) return;
+  if (result.sharp_bends <= std::max(at_least, few * 1.5 * run.after->topology.faces)) return;
   run.warnings.push_back(
       {"sharp_bends",
        fmt::format(
-           "{}: {} edges turn by more than 60 degrees, up to {:.0f} near {:.6g}, where {} is smooth: "
-           "narrow or sharply curved parts are coarser there; --sizing curvature, which makes edges shorter "
+           "{}: {} edges turn by more than 60 degrees, up to {:.0f} near {:.6g}, where {} bends less: "
+           "narrow or sharply curved parts are coarser there; --sizing curvature, which makes edges "
+           "shorter "
            "there, or a smaller --length follows them",
            run.output->path, result.sharp_bends, result.sharpest_bend, fmt::join(result.sharpest_place, " "),
            run.input.path)});

@@ -168,6 +168,10 @@ class Msh(CommandTest):
         nodes = range(before.index("$Nodes"), before.index("$EndNodes"))
         self.assertEqual([k for k, (a, b) in enumerate(zip(before, after, strict=True)) if a != b and k not in nodes], [])
         self.assertNotEqual(before, after)
+        for held in self.faces[0][:2]:
+            row = nodes[2 + held]
+            self.assertTrue(before[row].startswith(f"{7 * held + 3} "))
+            self.assertEqual(before[row], after[row], "an end of the line")
         self.assertEqual([before[k].split()[0] for k in nodes], [after[k].split()[0] for k in nodes])
 
     def test_groups_become_solids(self):

@@ -136,7 +136,7 @@ TEST(Stl, SeveralSolidsAreGroupsWithTheirNames) {
 }
 
 TEST(Stl, TheHeaderComesBackUnlessItWouldPassForText) {
-  for (const std::string start : {"COLOR=\x1\x2\x3\x4,MATERIAL=", "solid of another program"}) {
+  for (const std::string start : {"COLOR=\x1\x2\x3\x4,MATERIAL=", "solid of another program", " SOLID"}) {
     std::string bytes = binary("", 1, {facet});
     bytes.replace(0, start.size(), start);
     const MeshFile file = read_stl(bytes, "m");

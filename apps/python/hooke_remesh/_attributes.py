@@ -14,8 +14,10 @@ _COLOURS = ("red", "green", "blue", "alpha")
 def _are_labels(name: str, values: NDArray[Any], faces: NDArray[np.int32]) -> bool:
     """Are these numbers labels, between which there is nothing? The rule of the command: integers but colours; those of
     one or two bytes may be brightness, and are labels if they are equal at most sides of faces."""
-    if values.dtype.kind not in "iu" or name in _COLOURS:
-        return values.dtype.kind not in "fiu"
+    if values.dtype.kind not in "fiu":
+        return True  # words and others
+    if values.dtype.kind == "f" or name in _COLOURS:
+        return False
     if values.dtype.itemsize > 2:
         return True
     corners = values[faces]

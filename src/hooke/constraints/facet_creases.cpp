@@ -36,7 +36,8 @@ constexpr double flat_share = .6;
 constexpr double flatness =
     1e-6;  // maximum distance of a flat region from its plane, in diagonals of the mesh
 
-/// Of these vertices, which lie in a plane with this unit normal, those at the corners of their convex hull
+/// Of these vertices, which lie in a plane with this unit normal, those at the corners of their convex hull,
+/// the outermost ones twice
 /// (the monotone chains of Andrew 1979).
 std::vector<int> corners_of_hull(const Mat3X& points, const std::vector<int>& vertices, const Vec3& normal) {
   const Vec3 u = normal.unitOrthogonal(), v = normal.cross(u), origin = points.col(vertices[0]);

@@ -44,6 +44,8 @@ struct MeshFile {
   PolygonCorners texture;      // texture coordinates, if vertices have several; else they are vertex data
   PolygonCorners normals;      // likewise
   std::vector<std::string> material_libraries;  // the files that an OBJ names for its materials
+  std::vector<int> marked_vertices;             // of points that an MSH file has beside its polygons
+  std::vector<Edge> marked_edges;               // of its lines
   std::string stl_header;                       // the 80 bytes of a binary STL, where programs put colours
   ContentWarnings content;
   std::string misread;  // what simple readers would read wrongly in the file as it is; empty for nothing

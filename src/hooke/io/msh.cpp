@@ -25,6 +25,11 @@ void take_polygons(const MshContent& content, MeshFile& file) {
   file.points.resize(3, std::ranges::count_if(content.vertex, [](int v) { return v >= 0; }));
   for (size_t n = 0; n < content.nodes.size(); ++n)
     if (content.vertex[n] >= 0) file.points.col(content.vertex[n]) = content.nodes[n];
+  for (const int node : content.points)
+    if (content.vertex[node] >= 0) file.marked_vertices.push_back(content.vertex[node]);
+  for (const auto& [from, to] : content.segments)
+    if (content.vertex[from] >= 0 && content.vertex[to] >= 0)
+      file.marked_edges.push_back({content.vertex[from], content.vertex[to]});
 }
 
 std::vector<std::string> kinds_not_kept(const MshContent& content, size_t vertices) {

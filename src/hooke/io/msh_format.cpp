@@ -217,6 +217,8 @@ class MshInput {
 struct MshBuilder : MshContent {
   std::unordered_map<long long, int> index;                 // of each node by its number
   std::vector<long long> corner_numbers;                    // of the nodes of the polygons, end to end
+  std::vector<long long> point_numbers;                     // of the nodes of points
+  std::vector<std::array<long long, 2>> segment_numbers;    // of those of straight lines
   std::map<long long, std::vector<int>> groups_of_surface;  // by the number of the surface
 };
 
@@ -278,10 +280,16 @@ void require_type(const MshInput& in, const ElementType* type, long long code) {
 void read_element(MshInput& in, const ElementType& type, int group, int entity, MshBuilder& content) {
   const bool polygon = type.code == triangle_code || type.code == quadrangle_code;
   if (!polygon) {
-    for (int k = 0; k < type.nodes; ++k) in.large("node of an element");
     OtherElements& others = content.other_elements[type.plural];
-    others.moves_freely = type.nodes <= 2;
+    others.is_straight = type.nodes <= 2;
     ++others.count;
+    std::array<long long, 2> ends{};
+    for (int k = 0; k < type.nodes; ++k) {
+      const long long number = in.large("node of an element");
+      if (others.is_straight) ends[k] = number;
+    }
+    if (type.nodes == 1) content.point_numbers.push_back(ends[0]);
+    if (type.nodes == 2) content.segment_numbers.push_back(ends);
     return;
   }
   for (int k = 0; k < type.nodes; ++k) content.corner_numbers.push_back(in.large("node of an element"));
@@ -471,6 +479,13 @@ void find_corners(const std::string& name, MshBuilder& content) {
   int used = 0;
   for (int& v : content.vertex)
     if (v == 0) v = used++;
+  for (const long long number : content.point_numbers)
+    if (const auto found = content.index.find(number); found != content.index.end())
+      content.points.push_back(found->second);
+  for (const auto& [from, to] : content.segment_numbers)
+    if (const auto a = content.index.find(from), b = content.index.find(to);
+        a != content.index.end() && b != content.index.end())
+      content.segments.push_back({a->second, b->second});
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ inline constexpr int triangle_code = 2;  // of the type of elements
 /// A kind of elements of other dimension or order than polygons.
 struct OtherElements {
   long long count = 0;
-  bool moves_freely = false;  // points or straight lines, which go along with their nodes
+  bool is_straight = false;  // points or lines between two nodes
 };
 
 struct MshContent {
@@ -34,6 +34,8 @@ struct MshContent {
   std::vector<int> sizes;                // corners of each polygon
   std::vector<int> lines;                // of each polygon, in text files
   FaceChannel groups{group_channel}, entities{entity_channel};
+  std::vector<int> points;                              // nodes of elements that are points
+  std::vector<Edge> segments;                           // nodes of straight lines
   std::map<std::string, OtherElements> other_elements;  // by the plural of their names
   std::vector<std::string> other_sections;              // "$NodeData", each name once
   long long in_several_groups = 0;                      // polygons

@@ -138,6 +138,7 @@ LoadedMesh read_mesh(const std::filesystem::path& path, Stopwatch* stopwatch, co
     triangulation.triangles = std::move(repaired.triangles);
     repairs = std::move(repaired.changes);
     origin = std::move(repaired.origin);
+    if (!origin.vertex.empty()) file.marked_vertices.clear(), file.marked_edges.clear();
     follow(origin, file.vertex_data, face_data, corner_data, source);
     source.repaired = wanted.repair;
     source.keeps_junctions = wanted.keep_junctions;
@@ -200,6 +201,8 @@ LoadedMesh read_mesh(const std::filesystem::path& path, Stopwatch* stopwatch, co
           std::move(face_data),
           std::move(corner_data),
           std::move(file.material_libraries),
+          std::move(file.marked_vertices),
+          std::move(file.marked_edges),
           std::move(file.stl_header),
           std::move(origin),
           std::move(file.notes),

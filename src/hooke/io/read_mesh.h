@@ -28,6 +28,8 @@ struct LoadedMesh {
   FaceData face_data;                                        // of the triangles
   CornerData corner_data;                                    // of the triangles, where not of the vertices
   std::vector<std::string> material_libraries;               // see MeshFile
+  std::vector<int> marked_vertices;                          // see MeshFile; empty if it was repaired
+  std::vector<Edge> marked_edges;                            // likewise
   std::string stl_header;                                    // see MeshFile
   MeshOrigin origin;                                         // if the mesh was repaired
   Notes notes;                                               // see MeshFile

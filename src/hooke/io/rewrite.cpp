@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <stdexcept>
 #include <utility>
 
 #include "hooke/core/error.h"
@@ -31,9 +32,14 @@ RewrittenMesh rewrite_mesh(std::string_view bytes, const std::string& name, Mesh
         return rewrite_ply(content, name, points);
       case MeshFormat::off:
         return rewrite_off(content, name, points);
-      default:
+      case MeshFormat::msh:
+      case MeshFormat::msh2:
         return rewrite_msh(content, name, points);
+      case MeshFormat::stl:
+      case MeshFormat::vtp:
+        break;
     }
+    throw std::logic_error("a format that is not rewritten");
   };
   RewrittenMesh result = rewrite();
   result.bytes.insert(0, bytes.substr(0, bytes.size() - content.size()));

@@ -7,6 +7,7 @@
 #include "hooke/io/binary_numbers.h"
 #include "hooke/io/edited_copy.h"
 #include "hooke/io/msh_format.h"
+#include "hooke/io/scanner.h"
 
 namespace hooke {
 namespace {
@@ -14,7 +15,7 @@ namespace {
 // What would not fit moved nodes any more; empty if there is nothing.
 std::string misfit_of(const MshContent& content) {
   for (const auto& [plural, others] : content.other_elements)
-    if (!others.moves_freely) return plural;
+    if (!others.is_straight) return plural;
   if (content.has_parameters) return "parametric coordinates";
   for (const char* section : {"$Periodic", "$Parametrizations"})
     if (std::ranges::find(content.other_sections, section) != content.other_sections.end())
@@ -32,14 +33,15 @@ void set_binary_coordinates(const MshContent& content, const Mat3X& points, std:
 }
 
 std::string with_coordinates(const MshContent& content, std::string_view text, const Mat3X& points) {
-  constexpr std::string_view blanks = " \t\r\n\v\f";
+  const auto is_space = [](char c) { return is_blank(c) || is_line_end(c); };
   EditedCopy copy(text);
   for (size_t n = 0; n < content.nodes.size(); ++n) {
     if (content.vertex[n] < 0) continue;
     size_t at = content.coordinates[n];
     for (const double x : points.col(content.vertex[n])) {
-      at = text.find_first_not_of(blanks, at);
-      const size_t end = std::min(text.find_first_of(blanks, at), text.size());
+      while (is_space(text[at])) ++at;  // a number follows, as when it was read
+      size_t end = at;
+      while (end < text.size() && !is_space(text[end])) ++end;
       copy.set_number(text.substr(at, end - at), x);
       at = end;
     }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cctype>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -308,9 +309,18 @@ std::string write_text(const Eigen::Ref<const Mat3X>& points, const std::vector<
   return text;
 }
 
+/// Does it begin with the word of text files, in upper or lower case, after blanks?
+bool passes_for_text(const std::string& header) {
+  constexpr std::string_view word = "solid";
+  const auto begin = std::ranges::find_if_not(header, [](unsigned char c) { return std::isspace(c) != 0; });
+  return std::equal(word.begin(), word.end(), begin,
+                    begin + std::min<std::ptrdiff_t>(5, header.end() - begin),
+                    [](char a, unsigned char b) { return a == std::tolower(b); });
+}
+
 std::string write_binary(const Mat3X& points, const std::vector<Triangle>& triangles,
                          const FaceChannel* attributes, const std::string& header) {
-  std::string bytes = header.empty() || header.starts_with("solid") ? "binary STL" : header;
+  std::string bytes = header.empty() || passes_for_text(header) ? "binary STL" : header;
   bytes.resize(header_size, ' ');
   bytes.reserve(size_of_facets(static_cast<std::uint32_t>(triangles.size())));
   const auto append = [&](auto value) {

@@ -35,16 +35,24 @@ double nearest_value(const MapEntry& entry, const std::vector<double>& values,
   return values[faces[entry.position.face][static_cast<size_t>(corner)]];
 }
 
+}  // namespace
+
+bool is_equal_at_most_sides(const VertexChannel& channel, const std::vector<Triangle>& faces) {
+  std::size_t equal = 0;
+  for (const Triangle& t : faces)
+    for (std::size_t k = 0; k < 3; ++k) equal += channel.values[t[k]] == channel.values[t[(k + 1) % 3]];
+  return 2 * equal >= 3 * faces.size();
+}
+
+namespace {
+
 /// Are the numbers of the channel labels, between which there is nothing? Those of one or two bytes may be
 /// brightness: they are labels if they are equal at most sides of faces.
 bool has_labels(const VertexChannel& channel, const std::vector<Triangle>& faces) {
   if (!is_integer(channel.type) || std::ranges::find(colour_names, channel.name) != colour_names.end())
     return false;
-  if (channel.type == NumberType::int32 || channel.type == NumberType::uint32) return true;
-  std::size_t equal = 0;
-  for (const Triangle& t : faces)
-    for (std::size_t k = 0; k < 3; ++k) equal += channel.values[t[k]] == channel.values[t[(k + 1) % 3]];
-  return 2 * equal >= 3 * faces.size();
+  return channel.type == NumberType::int32 || channel.type == NumberType::uint32 ||
+         is_equal_at_most_sides(channel, faces);
 }
 
 }  // namespace

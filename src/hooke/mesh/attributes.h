@@ -47,6 +47,9 @@ ChannelList channels_named(const VertexData& data, ChannelNames names);
 VertexData interpolate(const VertexData& data, const std::vector<MapEntry>& map,
                        const std::vector<Triangle>& faces);
 
+/// Is the value the same at both ends of most sides of the faces, as labels are?
+bool is_equal_at_most_sides(const VertexChannel& channel, const std::vector<Triangle>& faces);
+
 /// Whether the channels nx, ny and nz exist.
 bool has_normals(const VertexData& data);
 

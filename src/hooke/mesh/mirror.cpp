@@ -12,7 +12,7 @@ namespace {
 
 /// The corners in their order, the smallest first.
 std::vector<int> from_smallest(std::vector<int> corners) {
-  std::ranges::rotate(corners, std::ranges::min_element(corners));
+  std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
   return corners;
 }
 

@@ -119,7 +119,11 @@ class SmoothParts {
 
 }  // namespace
 
-std::vector<Bend> unresolved_bends(const AttemptMaker& maker, const Attempt& attempt, double max_bend) {
+std::vector<Bend> unresolved_bends(const AttemptMaker& maker, const Attempt& attempt, double max_bend,
+                                   double smooth) {
+  const auto allowed = [&](double angle) {
+    return std::min(smooth_share * angle, std::max(smooth, .5 * angle));
+  };
   const MemoryOrder& memory_order = attempt.result.memory_order;
   const Mat3X points = memory_order.order.gather(vertex_points(attempt.mesh));
   const Adjacency& c = *memory_order.adjacency;
@@ -134,7 +138,7 @@ std::vector<Bend> unresolved_bends(const AttemptMaker& maker, const Attempt& att
     if (angle <= max_bend) continue;
     const auto& [v, w] = c.edges[e];
     const Vec3 from = points.col(v), to = points.col(w);
-    if (!input.bends_less_across(.5 * (from + to), maker.shell_of_vertex(v, attempt), smooth_share * angle,
+    if (!input.bends_less_across(.5 * (from + to), maker.shell_of_vertex(v, attempt), allowed(angle),
                                  crease_reach * (to - from).norm()))
       continue;
     double width = 0;  // mean of the faces
@@ -146,7 +150,7 @@ std::vector<Bend> unresolved_bends(const AttemptMaker& maker, const Attempt& att
   for (int v = 0; v < c.vertex_count; ++v) {
     const std::optional<double> angle = bends.along(v);
     const Vec3 x = points.col(v);
-    if (!angle || *angle <= max_bend || !input.bends_less_along(x, smooth_share * *angle)) continue;
+    if (!angle || *angle <= max_bend || !input.bends_less_along(x, allowed(*angle))) continue;
     double length = 0;  // mean of the edges
     for (int end : bends.ends(v)) length += .5 * (points.col(end) - x).norm();
     unresolved.push_back({x, x, *angle, lengths[v], std::min(lengths[v], length), false});

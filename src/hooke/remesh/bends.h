@@ -21,7 +21,8 @@ struct Bend {
 };
 
 /// The bends of a result by more than `max_bend` degrees, across an edge, or along a crease or boundary at a
-/// vertex, where the input bends by less than .85 of that.
-std::vector<Bend> unresolved_bends(const AttemptMaker& maker, const Attempt& attempt, double max_bend);
+/// vertex, where the input bends by less than .85 of that, and by less than `smooth` degrees or half.
+std::vector<Bend> unresolved_bends(const AttemptMaker& maker, const Attempt& attempt, double max_bend,
+                                   double smooth = 180);
 
 }  // namespace hooke

@@ -94,9 +94,9 @@ class PreservingRemesh {
   }
 
   void note_bends(Attempt& best) const {
-    constexpr double sharp = 60;  // degrees: of a hexagon
+    constexpr double sharp = 60, smooth = 40;  // degrees: of a hexagon and a nonagon
     if (!best.result.measures || best.is_interrupted() || best.result.rescue == Rescue::put_back) return;
-    for (const Bend& bend : unresolved_bends(maker_, best, sharp)) {
+    for (const Bend& bend : unresolved_bends(maker_, best, sharp, smooth)) {
       ++best.result.sharp_bends;
       if (bend.angle <= best.result.sharpest_bend) continue;
       best.result.sharpest_bend = bend.angle;
@@ -210,13 +210,14 @@ class PreservingRemesh {
   /// `adapt`, where edges get shorter.
   void note_distance(const Attempt& run) {
     is_first_ = false;
-    if (!run.result.measures || maker_.adapts()) return;
+    if (!run.result.measures || maker_.adapts() || maker_.has_tolerance()) return;
     const Preservation& p = run.preservation();
     if (p.far_vertices.empty() && p.lost_vertices.empty()) return;
     const Deviation& d = run.result.measures->deviation;
     const double distance = std::max({p.distance, d.to_reference.max, d.from_reference.max}),
                  few = few_vertices * input_.adjacency.vertex_count;
-    if (static_cast<double>(maker_.flaws_within(distance, run)) < few && !has_worse_faces(run))
+    const std::size_t others = maker_.flaws_within(distance, run);
+    if (static_cast<double>(others) < few && 4 * others < p.flaws() && !has_worse_faces(run))
       refused_distance_ = distance;
   }
 

@@ -94,7 +94,8 @@ struct RemeshResult {
   /// How far the first attempt was from the input, if that alone broke a promise and vertices were put back
   /// or faces kept; in the unit of the points.
   double refused_distance = 0;
-  /// Bends by more than 60 degrees within an edge where the input is smooth, see unresolved_bends().
+  /// Bends by more than 60 degrees within an edge where the input bends by less than 40 or half, see
+  /// unresolved_bends().
   int sharp_bends = 0;
   double sharpest_bend = 0;            // degrees
   Vec3 sharpest_place = Vec3::Zero();  // its middle
