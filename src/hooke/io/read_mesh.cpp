@@ -138,7 +138,7 @@ LoadedMesh read_mesh(const std::filesystem::path& path, Stopwatch* stopwatch, co
     triangulation.triangles = std::move(repaired.triangles);
     repairs = std::move(repaired.changes);
     origin = std::move(repaired.origin);
-    if (!origin.vertex.empty()) file.marked_vertices.clear(), file.marked_edges.clear();
+    if (!repairs.empty()) file.marked_vertices.clear(), file.marked_edges.clear();
     follow(origin, file.vertex_data, face_data, corner_data, source);
     source.repaired = wanted.repair;
     source.keeps_junctions = wanted.keep_junctions;
