@@ -8,7 +8,6 @@
 #include <optional>
 #include <utility>
 
-#include "hooke/core/lists.h"
 #include "hooke/mesh/junctions.h"
 #include "hooke/mesh/mesh.h"
 #include "hooke/mesh/normals.h"
@@ -18,6 +17,7 @@
 #include "hooke/remesh/kept_faces.h"
 #include "hooke/remesh/limiting_factors.h"
 #include "hooke/remesh/mending.h"
+#include "hooke/remesh/mirrored_places.h"
 #include "hooke/remesh/remesh.h"
 #include "hooke/remesh/shell_attempts.h"
 #include "hooke/remesh/shorter_lengths.h"
@@ -59,7 +59,7 @@ class PreservingRemesh {
     resolve_bends(start, best);
     if (best.result.rescue == Rescue::put_back || best.result.rescue == Rescue::kept_faces)
       best.result.refused_distance = refused_distance_;
-    keep_mirrors(start.constraints, best);
+    if (!is_of_part()) keep_mirrors(maker_, asked_, start.constraints, best);
     if (!is_of_part()) note_bends(best);
     if (!best.lengths.shorter.empty()) best.result.shortened = shorter_.count_in(best);
     if (!maker_.adapts() && vertex_points(best.mesh) == maker_.as_written(vertex_points(maker_.mesh())))
@@ -622,97 +622,6 @@ class PreservingRemesh {
       maker_.place(v, input.col(id) + share * (points.col(id) - input.col(id)), run);
     }
     maker_.judge(run);
-  }
-
-  /// In mode `fixed`, gives one side of a mesh that mirrors map onto itself the mirrored places of the other,
-  /// the one with the greater least angle, if that is hardly worse.
-  void keep_mirrors(const ConstraintOptions& constraints, Attempt& best) const {
-    OpenMesh::EPropHandleT<double> of_edges;
-    if (maker_.mesh().get_property_handle(of_edges, edge_length_property)) return;
-    if (options_.connectivity != ConnectivityMode::fixed || is_of_part() || !best.result.measures ||
-        best.is_interrupted() || !input_.joined.empty())
-      return;
-    for (const Mirror& mirror : maker_.mirrors()) {
-      if (is_mirrored(mirror, best) || !is_asked_alike(mirror, constraints)) continue;
-      Attempt mirrored = best;
-      mirror_places(mirror, better_side(mirror, best), mirrored);
-      maker_.judge(mirrored);
-      if (is_hardly_worse(mirrored, best)) best = std::move(mirrored);
-    }
-  }
-
-  /// Does the mirror map the lengths asked for, and what stays, onto each other?
-  bool is_asked_alike(const Mirror& mirror, const ConstraintOptions& constraints) const {
-    constexpr double rounding = 1e-6;
-    std::vector<double> length(asked_.size());  // by id
-    for (int v = 0; v < input_.adjacency.vertex_count; ++v) length[maker_.id_of(v)] = asked_[v];
-    for (size_t v = 0; v < length.size(); ++v)
-      if (std::abs(length[v] - length[mirror.image[v]]) > rounding * length[v]) return false;
-    const auto maps_vertices = [&](std::vector<int> ids) {
-      std::vector<int> images;
-      for (int id : ids) images.push_back(mirror.image[id]);
-      sort_unique(ids), sort_unique(images);
-      return ids == images;
-    };
-    const auto maps_edges = [&](std::vector<Edge> edges) {
-      std::vector<Edge> images;
-      for (Edge& e : edges) {
-        images.push_back({mirror.image[e[0]], mirror.image[e[1]]});
-        std::ranges::sort(e), std::ranges::sort(images.back());
-      }
-      std::ranges::sort(edges), std::ranges::sort(images);
-      return edges == images;
-    };
-    return maps_vertices(constraints.fixed_vertices) && maps_vertices(constraints.frozen_vertices) &&
-           maps_edges(constraints.seams) && maps_edges(constraints.hard_edges);
-  }
-
-  bool is_mirrored(const Mirror& mirror, const Attempt& run) const {
-    const auto points = vertex_points(run.mesh);
-    for (int v = 0; v < points.cols(); ++v)
-      if ((mirror(points.col(v)) - points.col(mirror.image[v])).norm() >
-          mirror_tolerance * input_.extent.diagonal)
-        return false;
-    return true;
-  }
-
-  /// Where it has the greater least angle: 1 beyond the plane, else -1.
-  double better_side(const Mirror& mirror, const Attempt& run) const {
-    const Mat3X points = vertex_points(run.mesh);
-    double least_beyond = 180, least_before = 180;
-    for (const Triangle& t : triangles_of(run.mesh)) {
-      double across = 0;
-      for (int v : t) across += points(mirror.axis, v) - mirror.plane;
-      double& least = across > 0 ? least_beyond : least_before;
-      least = std::min(least, min_angle(points, {t}));
-    }
-    return least_beyond >= least_before ? 1 : -1;
-  }
-
-  void mirror_places(const Mirror& mirror, double side, Attempt& run) const {
-    const Mat3X before = vertex_points(run.mesh), input = vertex_points(maker_.mesh());
-    std::vector<unsigned char>& limits = run.result.vertex_limits;
-    for (int v = 0; v < input_.adjacency.vertex_count; ++v) {
-      const int id = maker_.id_of(v), image = mirror.image[id];
-      Vec3 x = before.col(id);
-      if (image == id) {
-        x[mirror.axis] = mirror.plane;
-      } else if (side * (input(mirror.axis, id) - mirror.plane) < 0) {
-        x = mirror(before.col(image));
-        limits[id] = limits[image];
-      }
-      if (x != before.col(id)) maker_.place(v, x, run);
-    }
-  }
-
-  /// Does it keep its promises, unless the other does not either, and are its angles hardly smaller?
-  bool is_hardly_worse(const Attempt& run, const Attempt& other) const {
-    constexpr double kept_least = .95, margin = .005;
-    if (!run.result.measures || run.flaws() > other.flaws() || run.lost_angle > other.lost_angle ||
-        (maker_.has_worse_polygons(run) && !maker_.has_worse_polygons(other)))
-      return false;
-    return run.angle >= kept_least * other.angle &&
-           run.result.measures->quality.shape.mean >= other.result.measures->quality.shape.mean - margin;
   }
 
   AttemptMaker& maker_;
