@@ -108,14 +108,13 @@ void warn_of_bends(RunRecord& run) {
   const RemeshResult& result = *run.result;
   if (result.sharp_bends <= std::max(at_least, few * 1.5 * run.after->topology.faces)) return;
   run.warnings.push_back(
-      {"sharp_bends",
-       fmt::format(
-           "{}: {} edges turn by more than 60 degrees, up to {:.0f} near {:.6g}, where {} bends less: "
-           "narrow or sharply curved parts are coarser there; --sizing curvature, which makes edges "
-           "shorter "
-           "there, or a smaller --length follows them",
-           run.output->path, result.sharp_bends, result.sharpest_bend, fmt::join(result.sharpest_place, " "),
-           run.input.path)});
+      {"sharp_bends", fmt::format("{}: {} edges turn by more than 60 degrees, up to {:.0f} near {:.6g}, "
+                                  "where {} bends less: narrow or "
+                                  "sharply curved parts are coarser there; --sizing curvature, which makes "
+                                  "edges shorter there, or a "
+                                  "smaller --length follows them",
+                                  run.output->path, result.sharp_bends, result.sharpest_bend,
+                                  fmt::join(result.sharpest_place, " "), run.input.path)});
 }
 
 void warn_of_count(RunRecord& run) {

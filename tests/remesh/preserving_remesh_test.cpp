@@ -489,6 +489,12 @@ TEST(PreservingRemesh, MirroredMeshesStayMirroredWithFixedFaces) {
     options.constraints.fixed_vertices = {held};
     EXPECT_EQ(preserved(egg, options).points.col(held), egg.points.col(held));
   }
+  // Nor do those move that are held on both sides, but mirror each other only nearly.
+  const int held = 20, image = mirrors[0].image[held];
+  egg.points(2, held) += 1e-7;
+  options.constraints.fixed_vertices = {held, image};
+  const test::Outcome both = preserved(egg, options);
+  for (const int v : {held, image}) EXPECT_EQ(both.points.col(v), egg.points.col(v));
 }
 
 TEST(PreservingRemesh, TellsTheDistanceThatItRefused) {

@@ -59,7 +59,9 @@ double better_side(const Mirror& mirror, const Attempt& run) {
   return least_beyond >= least_before ? 1 : -1;
 }
 
-void mirror_places(const AttemptMaker& maker, const Mirror& mirror, double side, Attempt& run) {
+/// Vertices that are in their mirrored places but for the tolerance, as those that stay, keep every bit.
+void mirror_places(const AttemptMaker& maker, const Mirror& mirror, double side, double tolerance,
+                   Attempt& run) {
   const Mat3X before = vertex_points(run.mesh), input = vertex_points(maker.mesh());
   std::vector<unsigned char>& limits = run.result.vertex_limits;
   for (int v = 0; v < input.cols(); ++v) {
@@ -71,7 +73,7 @@ void mirror_places(const AttemptMaker& maker, const Mirror& mirror, double side,
       x = mirror(before.col(image));
       limits[id] = limits[image];
     }
-    if (x != before.col(id)) maker.place(v, x, run);
+    if ((x - before.col(id)).norm() > tolerance) maker.place(v, x, run);
   }
 }
 
@@ -98,7 +100,7 @@ void keep_mirrors(const AttemptMaker& maker, const std::vector<double>& asked,
   for (const Mirror& mirror : maker.mirrors()) {
     if (is_mirrored(mirror, best, tolerance) || !is_asked_alike(maker, mirror, asked, constraints)) continue;
     Attempt mirrored = best;
-    mirror_places(maker, mirror, better_side(mirror, best), mirrored);
+    mirror_places(maker, mirror, better_side(mirror, best), tolerance, mirrored);
     maker.judge(mirrored);
     if (is_hardly_worse(maker, mirrored, best)) best = std::move(mirrored);
   }
