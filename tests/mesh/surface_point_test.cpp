@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+
 #include "hooke/geometry/aabb_tree.h"
 #include "hooke/io/vertex_lists.h"
 #include "hooke/mesh/adjacency.h"
@@ -21,6 +24,30 @@ TEST(SurfacePoint, WalksToTheClosestPoint) {
         y += found.weights[static_cast<Eigen::Index>(k)] * t.points.col(t.faces[found.face][k]);
       EXPECT_NEAR(found.weights.sum(), 1, 1e-12);
       EXPECT_NEAR((x - y).squaredNorm(), tree.closest(x).squared_distance, 1e-12);
+    }
+}
+
+TEST(SurfacePoint, WalksAroundTheHubOfAFan) {
+  constexpr int corners = 500;
+  Mat3X points = Mat3X::Zero(3, corners + 1);
+  std::vector<Triangle> faces;
+  for (int k = 0; k < corners; ++k) {
+    const double angle = 2 * std::numbers::pi * k / corners;
+    points.col(k + 1) = Vec3(std::cos(angle), std::sin(angle), .2);
+    faces.push_back({0, k + 1, (k + 1) % corners + 1});
+  }
+  const Adjacency c = make_adjacency(corners + 1, faces);
+  const AabbTree tree(points, faces);
+  for (const double radius : {0., .1, .5, .99})
+    for (const double turn : {0., .3, 2.}) {  // edges of the rim, from that of the hint
+      const double angle = 2 * std::numbers::pi * turn / corners;
+      const Vec3 x(radius * std::cos(angle), radius * std::sin(angle), .2 * radius + .01);
+      const SurfacePoint found = locate(points, c, x, 1);
+      ASSERT_GE(found.face, 0);
+      Vec3 y = Vec3::Zero();
+      for (size_t k = 0; k < 3; ++k)
+        y += found.weights[static_cast<Eigen::Index>(k)] * points.col(faces[found.face][k]);
+      EXPECT_NEAR((x - y).squaredNorm(), tree.closest(x).squared_distance, 1e-9) << radius << ' ' << turn;
     }
 }
 

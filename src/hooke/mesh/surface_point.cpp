@@ -5,6 +5,10 @@
 namespace hooke {
 namespace {
 
+/// The hub of a fan of more is passed by: its faces beside the hint and at that one's other neighbours are
+/// visited in any case, and all of them from each of thousands of vertices around it would take forever.
+constexpr std::size_t max_faces_of_neighbour = 48;
+
 /// Squared distance of x to the box of the corners: a lower bound on that to the face.
 double squared_distance_to_box(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& x) {
   const Vec3 lower = a.cwiseMin(b).cwiseMin(c), upper = a.cwiseMax(b).cwiseMax(c);
@@ -41,7 +45,8 @@ ClosestPoint closest_point_nearby(const Mat3X& points, const Adjacency& adjacenc
   for (;;) {
     const double before = closest.squared_distance;
     visit(hint);
-    for (int n : adjacency.vertex_neighbours[hint]) visit(n);
+    for (int n : adjacency.vertex_neighbours[hint])
+      if (adjacency.vertex_faces[n].size() <= max_faces_of_neighbour) visit(n);
     if (!(closest.squared_distance < before)) return closest;
     const int nearest = nearest_corner(on_face(closest, points, adjacency), adjacency);
     if (nearest == hint) return closest;

@@ -23,9 +23,9 @@ SurfacePoint on_face(const ClosestPoint& point, const Mat3X& points, const Adjac
 /// The corner of its face that has the largest weight. Pre-condition: it is on a face.
 int nearest_corner(const SurfacePoint& place, const Adjacency& adjacency);
 
-/// The closest point to x on the faces at `hint`, a vertex nearby, and at its neighbours; the search moves on
-/// to the nearest corner while that gets closer to x. The point `known` if none is closer than that; without,
-/// face -1 if none is there, or x is not finite.
+/// The closest point to x on the faces at `hint`, a vertex nearby, and at its neighbours but hubs of very
+/// many faces; the search moves on to the nearest corner while that gets closer to x. The point `known` if
+/// none is closer than that; without, face -1 if none is there, or x is not finite.
 ClosestPoint closest_point_nearby(const Mat3X& points, const Adjacency& adjacency, const Vec3& x, int hint,
                                   const ClosestPoint& known = {});
 
