@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <map>
 #include <numeric>
+#include <span>
 #include <utility>
 
 #include "hooke/constraints/seams.h"
@@ -125,14 +127,15 @@ void warn_of_moved_borders(const Settings& s, const LoadedMesh& loaded, const Or
                                     fmt::join(words, ","))});
 }
 
-/// Is it a value that goes with the surface? No normal, no texture, which has seams, and no number of its own
-/// for each vertex.
+bool is_named(const VertexChannel& channel, std::span<const char* const> names) {
+  return std::ranges::find(names, channel.name) != names.end();
+}
+
+/// Is it a value that goes with the surface? No normal, and no number of its own for each vertex.
 bool is_of_places(const VertexChannel& channel, const std::vector<Triangle>& faces) {
-  const auto is_named = [&](const auto& names) {
-    return std::ranges::find(names, channel.name) != names.end();
-  };
-  if (is_named(normal_names) || is_named(texture_names)) return false;
-  return !is_integer(channel.type) || is_named(colour_names) || is_equal_at_most_sides(channel, faces);
+  if (is_named(channel, normal_names)) return false;
+  return !is_integer(channel.type) || is_named(channel, colour_names) ||
+         is_equal_at_most_sides(channel, faces);
 }
 
 /// The root mean square of the differences of finite values of vertices with faces, of their range.
@@ -149,10 +152,34 @@ double difference(const VertexChannel& here, const VertexChannel& there, const A
   return count > 0 && range.volume() > 0 ? std::sqrt(squares / count) / range.volume() : 0;
 }
 
+/// The texture coordinates of the corners as values of the vertices in memory order; NaN at seams.
+VertexData texture_of_vertices(const CornerValues& texture, const MemoryOrder& memory_order) {
+  const Adjacency& c = *memory_order.adjacency;
+  VertexData channels;
+  for (int k = 0; k < texture.width; ++k) {
+    VertexChannel& channel = channels.emplace_back(VertexChannel{texture_names[k]});
+    channel.values.assign(c.vertex_count, std::numeric_limits<double>::quiet_NaN());
+    std::vector<char> is_seen(c.vertex_count, 0);
+    for (std::size_t f = 0; f < c.faces.size(); ++f)
+      for (std::size_t corner = 0; corner < 3; ++corner) {
+        const int v = c.faces[f][corner], element = texture.corners[memory_order.order.old_face[f]][corner];
+        double& value = channel.values[v];
+        const double here =
+            element < 0 ? std::numeric_limits<double>::quiet_NaN() : texture.values(k, element);
+        if (!std::exchange(is_seen[v], 1))
+          value = here;
+        else if (value != here)
+          value = std::numeric_limits<double>::quiet_NaN();
+      }
+  }
+  return channels;
+}
+
 /// Warns where faces stay if values of vertices that moved along are clearly others than the input has at
 /// their places.
-void warn_of_moved_values(const LoadedMesh& loaded, const Original& original, RunRecord& record) {
-  constexpr double clearly = .01;  // root mean square, of the range
+void warn_of_moved_values(const Settings& s, const LoadedMesh& loaded, const Original& original,
+                          RunRecord& record) {
+  constexpr double clearly = .01, visibly = .0025;  // root mean square, of the range; of textures
   const Permutation& order = loaded.memory_order.order;
   const Adjacency& c = *original.memory_order.adjacency;
   VertexData values;
@@ -160,6 +187,11 @@ void warn_of_moved_values(const LoadedMesh& loaded, const Original& original, Ru
     if (VertexChannel here{channel.name, channel.type, order.gather(channel.values)};
         is_of_places(here, c.faces))
       values.push_back(std::move(here));
+  if (!loaded.corner_data.texture.empty() && s.format == MeshFormat::obj)
+    std::ranges::move(texture_of_vertices(loaded.corner_data.texture, original.memory_order),
+                      std::back_inserter(values));
+  if (s.reproject_uv)
+    std::erase_if(values, [](const VertexChannel& channel) { return is_named(channel, texture_names); });
   if (values.empty()) return;
   const Mat3X after = order.gather(vertex_points(loaded.mesh));
   std::vector<MapEntry> map(c.vertex_count);
@@ -168,16 +200,25 @@ void warn_of_moved_values(const LoadedMesh& loaded, const Original& original, Ru
                                                         : locate(original.points, c, after.col(v), v)};
   const VertexData there = interpolate(values, map, c.faces);
   std::vector<std::string> moved;
-  for (std::size_t k = 0; k < values.size(); ++k)
-    if (const double share = difference(values[k], there[k], c); share > clearly)
-      moved.push_back(fmt::format("{} by {:.2g} %", values[k].name, 100 * share));
+  bool moves_texture = false;
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    const bool is_texture = is_named(values[k], texture_names);
+    const double share = difference(values[k], there[k], c);
+    if (share <= (is_texture ? visibly : clearly)) continue;
+    moves_texture |= is_texture;
+    moved.push_back(fmt::format("{}{} by {:.2g} %", is_texture ? "texture coordinate " : "", values[k].name,
+                                100 * share));
+  }
   if (!moved.empty())
     record.warnings.push_back(
         {"values_moved",
          fmt::format(
              "{}: values of vertices went along with these, and differ from those at their new places: {} "
-             "of the range (rms); --connectivity flip and adapt take the values of the places",
-             record.input.path, fmt::join(moved, ", "))});
+             "of the range (rms); {}--connectivity flip and adapt take the values of the places",
+             record.input.path, fmt::join(moved, ", "),
+             moves_texture && s.format == MeshFormat::obj && s.preserve
+                 ? "--reproject-uv on lets texture coordinates follow, "
+                 : "")});
 }
 
 /// Warns if so many edges are seams, though the surface is smooth across them, that little can change.
@@ -321,7 +362,7 @@ void keep_seams(Settings& s, LoadedMesh& loaded, RunRecord& record) {
 }
 
 void carry_data(const Settings& s, LoadedMesh& loaded, const Original& original, RunRecord& record) {
-  if (keeps_faces(s)) warn_of_moved_values(loaded, original, record);
+  if (keeps_faces(s)) warn_of_moved_values(s, loaded, original, record);
   if (loaded.face_data.empty() && loaded.corner_data.empty()) return;
   if (keeps_faces(s)) {
     if (!s.paper && s.keep == no_seams) warn_of_moved_borders(s, loaded, original, record);

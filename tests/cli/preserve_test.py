@@ -121,7 +121,7 @@ class Preserve(CommandTest):
         output, err, report = self.kept("artist.obj")
         self.assertGreater(report["geometry"]["displacement"]["max"], .01)
         self.assertNotIn("not kept", err)
-        self.assertEqual(sorted(w["code"] for w in report["warnings"]), ["carried_along", "polygons_triangulated"])
+        self.assertEqual(sorted(w["code"] for w in report["warnings"]), ["carried_along", "polygons_triangulated", "values_moved"])
         before, after = data.split(b"\r\n"), output.split(b"\r\n")
         self.assertEqual(len(before), len(after))
         changed = [(a, b) for a, b in zip(before, after) if a != b]
@@ -257,7 +257,7 @@ class Preserve(CommandTest):
         report = self.report("artist.obj", "-o", "out.obj", "-q", "--preserve", "off")
         self.assertIs(report["output"]["preserved"], False)
         self.assertEqual(report["parameters"]["preserve"], "off")
-        self.assertEqual([w["code"] for w in report["warnings"]], ["attributes_not_kept", "polygons_triangulated"])
+        self.assertEqual([w["code"] for w in report["warnings"]], ["values_moved", "attributes_not_kept", "polygons_triangulated"])
         for word in (b"mtllib sheet.mtl skin.mtl", b"usemtl metal", b"g right arm", b"s off"):
             self.assertIn(word, self.get("out.obj"))
         self.refused(2, "artist.obj", "-o", "o.obj", "--preserve", "maybe", says="expected on|off")
