@@ -207,6 +207,39 @@ class Repair(CommandTest):
         rows = (self.folder / "out.msh").read_text().splitlines()
         self.assertEqual([row.split()[3] for row in rows if len(row.split()) == 8], ["5", "8"])
 
+    def test_a_texture_that_was_cut_open_stays_cut(self):
+        n = 6
+        grid = [(i / n, j / n) for j in range(n + 1) for i in range(n + 1)]
+        quads = [j * (n + 1) + i for j in range(n) for i in range(n)]
+        faces = [f for q in quads for f in ((q, q + 1, q + n + 2), (q, q + n + 2, q + n + 1))]
+        rows = [(x + right, y, 0, x + 2 * right, y, right) for right in (0, 1) for x, y in grid]
+        faces += [tuple(v + len(grid) for v in f) for f in faces]
+        names = ("x", "y", "z", "s", "t", "heat")
+        lines = ["ply", "format ascii 1.0", "element vertex %d" % len(rows), *("property double " + n for n in names),
+                 "element face %d" % len(faces), "property list uchar int vertex_indices", "end_header"]
+        lines += ["%r %r %r %r %r %r" % row for row in rows] + ["3 %d %d %d" % f for f in faces]
+        self.write("cut.ply", "\n".join(lines) + "\n")
+        for mode in ("fixed", "adapt"):
+            report = self.report("cut.ply", "-o", "out.obj", "--repair", "--connectivity", mode, "-L", ".8x", *QUIET)
+            told = {w["code"]: w["message"] for w in report["warnings"]}
+            self.assertRegex(told["merged_values"], r"cut\.ply: 7 vertices had other values .*: heat$")
+            self.assertNotIn("texture_seams", told)
+            of = {"v": [], "vt": [], "f": []}
+            for line in (self.folder / "out.obj").read_text().splitlines():
+                word, *rest = line.split()
+                if word in of:
+                    of[word].append(rest)
+            self.assertEqual({row[0] for row in of["vt"]} >= {"1", "2"}, True)
+            for face in of["f"]:
+                corners = [tuple(int(k) - 1 for k in corner.split("/")[:2]) for corner in face]
+                if mode == "adapt":
+                    shifts = {round(float(of["vt"][t][0]) - float(of["v"][v][0]), 9) for v, t in corners}
+                    self.assertEqual(len(shifts), 1, face)
+                    self.assertTrue(shifts <= {0, 1}, shifts)
+        report = self.report("cut.ply", "-o", "out.ply", "--repair", *QUIET)
+        told = {w["code"]: w["message"] for w in report["warnings"]}
+        self.assertRegex(told["texture_seams"], "differ at 7 of the vertices that were merged; OBJ holds them")
+
     def test_a_mesh_that_is_inside_out_is_named(self):
         inside_out = TETRAHEDRON.replace("f 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4", "f 1 2 3\nf 1 4 2\nf 2 4 3\nf 3 4 1")
         self.write("in.obj", inside_out)

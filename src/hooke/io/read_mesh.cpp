@@ -1,7 +1,9 @@
 #include "hooke/io/read_mesh.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <iterator>
 #include <utility>
 
@@ -59,6 +61,53 @@ CornerValues values_of_triangles(PolygonCorners& of_polygons, const char* what, 
          fmt::format("{}: not kept in the output: {} of triangles of which another corner has none: {}",
                      file.name, what, lost)});
   return result;
+}
+
+/// The old vertices that were merged with one of another value.
+std::size_t count_merged_with_others(const MeshOrigin& origin, const VertexChannel& channel) {
+  std::size_t count = 0;
+  for (std::size_t v = 0; v < origin.merged.size(); ++v)
+    count += channel.values[v] != channel.values[origin.merged[v]];
+  return count;
+}
+
+/// Where vertices were merged that have other texture coordinates, as at the seams of a file that cuts the
+/// mesh open there, these become values of the corners, of the triangles before the repair. Of other values
+/// the merged vertices keep those of the first, and a warning counts them.
+void keep_merged_values(const MeshOrigin& origin, const std::vector<Triangle>& triangles, MeshFile& file,
+                        CornerData& corner_data, Warnings& warnings) {
+  std::vector<std::string> lost;
+  std::size_t most = 0, torn = 0;
+  for (const VertexChannel& channel : file.vertex_data) {
+    const std::size_t count = count_merged_with_others(origin, channel);
+    if (std::ranges::find(texture_names, channel.name) != texture_names.end()) {
+      torn = std::max(torn, count);
+    } else if (count > 0 && std::ranges::find(normal_names, channel.name) == normal_names.end()) {
+      lost.push_back(channel.name);
+      most = std::max(most, count);
+    }
+  }
+  if (!lost.empty())
+    warnings.push_back(
+        {"merged_values",
+         fmt::format("{}: {} vertices had other values than those they were merged with, which stay: {}",
+                     file.name, most, fmt::join(lost, ", "))});
+  if (torn == 0) return;
+  file.content.no_obj.push_back(
+      {"texture_seams", fmt::format("{}: not kept in the output: texture coordinates, which differ at {} of "
+                                    "the vertices that were merged; OBJ holds them",
+                                    file.name, torn)});
+  CornerValues& texture = corner_data.texture;
+  texture = {Mat3X::Zero(3, static_cast<Eigen::Index>(origin.merged.size())), 0, triangles};
+  for (const char* name : texture_names) {
+    const VertexChannel* channel = find_channel(file.vertex_data, name);
+    if (channel == nullptr) break;
+    texture.values.row(texture.width++) = Eigen::Map<const Eigen::RowVectorXd>(
+        channel->values.data(), static_cast<Eigen::Index>(channel->values.size()));
+  }
+  std::erase_if(file.vertex_data, [](const VertexChannel& channel) {
+    return std::ranges::find(texture_names, channel.name) != texture_names.end();
+  });
 }
 
 /// Brings values of corners in the order of a repaired mesh; faces over holes have none.
@@ -133,12 +182,15 @@ LoadedMesh read_mesh(const std::filesystem::path& path, Stopwatch* stopwatch, co
   const auto repair_as = [&](const RepairOptions& wanted) {
     if (!wanted.any()) return;
     const Stage stage(stopwatch, "repair");
+    const std::vector<Triangle> before =
+        file.vertex_data.empty() ? std::vector<Triangle>() : triangulation.triangles;
     Repaired repaired = repair(file.points, std::move(triangulation.triangles), wanted, source);
     file.points = std::move(repaired.points);
     triangulation.triangles = std::move(repaired.triangles);
     repairs = std::move(repaired.changes);
     origin = std::move(repaired.origin);
     if (!repairs.empty()) file.marked_vertices.clear(), file.marked_edges.clear();
+    if (!before.empty()) keep_merged_values(origin, before, file, corner_data, warnings);
     follow(origin, file.vertex_data, face_data, corner_data, source);
     source.repaired = wanted.repair;
     source.keeps_junctions = wanted.keep_junctions;
