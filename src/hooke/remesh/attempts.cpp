@@ -173,7 +173,12 @@ double AttemptMaker::least_angle() const {
 
 bool AttemptMaker::has_worse_faces(const Attempt& a, double margin) const {
   if (polygons_ != nullptr) return has_worse_polygons(a);
-  return a.result.measures->quality.shape.mean < least_mean_shape_ - margin;
+  constexpr double more = 1.1, few = .005;  // of the slivers before; of all faces
+  const Quality& quality = a.result.measures->quality;
+  const bool has_more_slivers =
+      static_cast<double>(quality.faces_below_20) >
+      more * static_cast<double>(input_quality_.faces_below_20) + few * static_cast<double>(a.mesh.n_faces());
+  return quality.shape.mean < least_mean_shape_ - (has_more_slivers ? 0 : margin);
 }
 
 std::vector<Mirror> AttemptMaker::mirrors() const {

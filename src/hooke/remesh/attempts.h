@@ -101,8 +101,8 @@ class AttemptMaker {
   /// The vertices with all copies of those at junctions.
   std::vector<int> with_copies(const std::vector<int>& vertices) const;
 
-  /// Has the attempt worse faces on average than the input, by more than the margin of their shape? Of known
-  /// polygons these tell.
+  /// Has the attempt worse faces on average than the input, by more than the margin of their shape? Where
+  /// clearly more of them are slivers there is no margin. Of known polygons these tell.
   bool has_worse_faces(const Attempt& attempt, double margin = 0) const;
 
   /// Those of the input, with its known polygons or its triangles.
