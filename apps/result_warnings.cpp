@@ -117,6 +117,20 @@ void warn_of_bends(RunRecord& run) {
                                   fmt::join(result.sharpest_place, " "), run.input.path)});
 }
 
+/// Warns if walls or gaps are not as thick as they were, unless it is at so few places that it hardly
+/// matters.
+void warn_of_walls(RunRecord& run) {
+  constexpr double few = .001, at_least = 4;  // of the faces of the input
+  const RemeshResult& result = *run.result;
+  if (result.left_walls <= std::max(at_least, few * run.before.topology.faces)) return;
+  run.warnings.push_back(
+      {"thin_walls",
+       fmt::format("{}: walls or gaps are not as thick as in {}: where one is {:.3g}, near {:.6g}, a side "
+                   "is {:.3g} off; --max-distance {:.2g}, --sizing curvature or a smaller --length keep them",
+                   run.output->path, run.input.path, result.thickness, fmt::join(result.thin_place, " "),
+                   result.lost_thickness, .1 * result.thickness)});
+}
+
 void warn_of_count(RunRecord& run) {
   const AdaptResult& adapted = run.result->adaptation;
   if (run.result->reason == StopReason::interrupted) return;  // adaptation may be incomplete
@@ -505,6 +519,7 @@ void add_result_warnings(const Settings& s, const TriMesh& mesh, RunRecord& run)
   warn_of_time(s, run);
   warn_of_distance(s, run);
   warn_of_bends(run);
+  warn_of_walls(run);
   warn_of_crossings(run);
   warn_of_folds(run);
   run.warnings.insert(run.warnings.end(), earlier.begin(), earlier.end());

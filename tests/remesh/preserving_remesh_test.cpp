@@ -265,7 +265,7 @@ test::Triangles thin_disc() {
 
 TEST(PreservingRemesh, ShortensEdgesAtPartsTooThinForThem) {
   const test::Triangles disc = thin_disc();
-  for (const double length : {.5, 1.5, 2.}) {
+  for (const double length : {.2, 1.5, 2.}) {
     test::Outcome o;
     o.mesh = test::with_length(disc, length);
     o.result = preserving_remesh(o.mesh, find_memory_order(o.mesh), options_for(ConnectivityMode::adapt));
@@ -273,7 +273,7 @@ TEST(PreservingRemesh, ShortensEdgesAtPartsTooThinForThem) {
     EXPECT_TRUE(o.result.measures->preservation.holds());
     EXPECT_EQ(o.result.shortened > 0, length > 1) << length;
     EXPECT_EQ(std::ranges::min(lengths) < length, length > 1) << length;
-    EXPECT_LE(std::ranges::max(lengths), length);
+    EXPECT_LE(std::ranges::max(lengths), (1 + 1e-12) * length);
   }
 }
 

@@ -21,6 +21,7 @@
 #include "hooke/remesh/remesh.h"
 #include "hooke/remesh/shell_attempts.h"
 #include "hooke/remesh/shorter_lengths.h"
+#include "hooke/remesh/walls.h"
 #include "hooke/springs/sizing.h"
 #include "hooke/springs/target_lengths.h"
 
@@ -56,11 +57,14 @@ class PreservingRemesh {
     if (may_take_lengths() && !best.is_interrupted() && (!is_done(best) || has_many_slivers(best)))
       take_lengths_of_input(start, best);
     if (!is_done(best)) leave_as_it_was(best);
-    resolve_bends(start, best);
+    resolve_details(start, best);
     if (best.result.rescue == Rescue::put_back || best.result.rescue == Rescue::kept_faces)
       best.result.refused_distance = refused_distance_;
     if (!is_of_part()) keep_mirrors(maker_, asked_, start.constraints, best);
-    if (!is_of_part()) note_bends(best);
+    if (!is_of_part()) {
+      note_bends(best);
+      note_walls(best);
+    }
     if (!best.lengths.shorter.empty()) best.result.shortened = shorter_.count_in(best);
     if (!maker_.adapts() && vertex_points(best.mesh) == maker_.as_written(vertex_points(maker_.mesh())))
       best.result.steps = MaskSteps::none;
@@ -102,6 +106,21 @@ class PreservingRemesh {
       best.result.sharpest_bend = bend.angle;
       best.result.sharpest_place = .5 * (bend.from + bend.to);
     }
+  }
+
+  void note_walls(Attempt& best) const {
+    constexpr double much = .25;  // of the thickness
+    if (!best.result.measures || !maker_.has_facets() || maker_.smooths_mask() || best.is_interrupted() ||
+        best.result.rescue == Rescue::put_back)
+      return;
+    const auto lost_share = [](const LeftWall& wall) { return wall.distance / wall.thickness; };
+    const std::vector<LeftWall> walls = left_walls(maker_, best, much);
+    if (walls.empty()) return;
+    const LeftWall& worst = *std::ranges::max_element(walls, {}, lost_share);
+    best.result.left_walls = static_cast<int>(walls.size());
+    best.result.thickness = worst.thickness;
+    best.result.lost_thickness = worst.distance;
+    best.result.thin_place = .5 * (worst.from + worst.to);
   }
 
   /// Has it, in modes `fixed` and `flip`, so many slivers that other lengths may do better? Those with a
@@ -341,22 +360,31 @@ class PreservingRemesh {
 
   /// In mode `adapt`, where the facets of the input are meant, as in CAD parts: shortens the lengths of a
   /// result that keeps its promises where smooth parts bend too much within an edge, as rods and fillets that
-  /// are thin for the length, and keeps it if it is closer to the input for that.
-  void resolve_bends(const RemeshOptions& start, Attempt& best) {
-    constexpr double max_growth = 3;  // of the number of faces that the lengths ask for
-    if (!maker_.adapts() || !maker_.has_facets() || maker_.has_tolerance() || maker_.smooths_mask() ||
-        is_of_part() || best.is_interrupted() || !best.keeps_promises() || best.result.rescue != Rescue::none)
-      return;
-    const double most = max_growth * shorter_.faces_of({asked_, {}}, std::numeric_limits<double>::infinity());
-    std::optional<AskedLengths> shorter = shorter_.resolving_bends(best, most);
-    if (!shorter) return;
-    maker_.lengths = std::move(*shorter);
-    options_ = start;
-    Attempt next = attempt();
-    if (next.is_interrupted())
-      best.result.reason = StopReason::interrupted;
-    else if (next.keeps_promises() && is_closer(next, best))
-      best = std::move(next);
+  /// are thin for the length, then where walls or gaps do not keep their thickness, and keeps it each time if
+  /// it is closer to the input for that.
+  void resolve_details(const RemeshOptions& start, Attempt& best) {
+    constexpr double growth = 3, growth_of_few = 10, few = 2000;  // of the number that the lengths ask for
+    const double asked = shorter_.faces_of({asked_, {}}, std::numeric_limits<double>::infinity());
+    const auto resolve = [&](const auto resolving, double max_faces) {
+      if (!may_resolve_details(best)) return;
+      std::optional<AskedLengths> shorter = (shorter_.*resolving)(best, max_faces);
+      if (!shorter) return;
+      maker_.lengths = std::move(*shorter);
+      options_ = start;
+      Attempt next = attempt();
+      if (next.is_interrupted())
+        best.result.reason = StopReason::interrupted;
+      else if (next.keeps_promises() && is_closer(next, best))
+        best = std::move(next);
+    };
+    resolve(&ShorterLengths::resolving_bends, growth * asked);
+    resolve(&ShorterLengths::resolving_walls, std::max(growth * asked, std::min(growth_of_few * asked, few)));
+  }
+
+  bool may_resolve_details(const Attempt& run) const {
+    return maker_.adapts() && maker_.has_facets() && !maker_.has_tolerance() && !maker_.smooths_mask() &&
+           !is_of_part() && !run.is_interrupted() && run.keeps_promises() &&
+           (run.result.rescue == Rescue::none || run.result.rescue == Rescue::closest);
   }
 
   /// Is a result closer to the input than the other on average and nowhere clearly farther, do no more faces

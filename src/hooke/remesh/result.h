@@ -99,6 +99,11 @@ struct RemeshResult {
   int sharp_bends = 0;
   double sharpest_bend = 0;            // degrees
   Vec3 sharpest_place = Vec3::Zero();  // its middle
+  /// Places on walls or gaps of the input that the result is away from by more than a quarter of their
+  /// thickness, see left_walls(), and the worst one.
+  int left_walls = 0;
+  double thickness = 0, lost_thickness = 0;  // there, in the unit of the points
+  Vec3 thin_place = Vec3::Zero();
   int rescued_shells = 0;  // that were remeshed by themselves and for which that holds; 0: for the whole
   /// Vertices at which preserving_remesh() took less than .8 of the target length asked for, so that the
   /// surface is kept.

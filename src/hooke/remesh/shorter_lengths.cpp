@@ -10,17 +10,26 @@
 #include "hooke/mesh/mesh.h"
 #include "hooke/mesh/surface_point.h"
 #include "hooke/remesh/bends.h"
+#include "hooke/remesh/walls.h"
 #include "hooke/springs/sizing.h"
 
 namespace hooke {
 
+namespace {
+
+/// Of all edges: not worth another attempt.
+bool are_few(std::size_t places, const Attempt& attempt) {
+  constexpr double few = .0005;
+  return static_cast<double>(places) < few * static_cast<double>(attempt.mesh.n_edges());
+}
+
+}  // namespace
+
 std::optional<AskedLengths> ShorterLengths::resolving_bends(const Attempt& attempt, double max_faces) const {
-  constexpr double max_bend = 45;      // degrees, within an edge
-  constexpr double few_bends = .0005;  // of all edges: not worth another attempt
+  constexpr double max_bend = 45;  // degrees, within an edge
   std::vector<Bend> bends = unresolved_bends(maker_, attempt, max_bend);
   std::erase_if(bends, [](const Bend& b) { return b.across_crease; });  // may be several of the input in one
-  if (static_cast<double>(bends.size()) < few_bends * static_cast<double>(attempt.mesh.n_edges()))
-    return std::nullopt;
+  if (are_few(bends.size(), attempt)) return std::nullopt;
   constexpr double fine_bend = 33, coarser = 4. / 3, more_faces = 2;
   const auto lengths_at = [&](double bend, double Bend::*length) {
     AskedLengths lengths = attempt.lengths;
@@ -35,6 +44,21 @@ std::optional<AskedLengths> ShorterLengths::resolving_bends(const Attempt& attem
       const double most = may_be_more ? more_faces * max_faces : max_faces;
       if (faces_of(lengths, most) <= most) return lengths;
     }
+  return std::nullopt;
+}
+
+std::optional<AskedLengths> ShorterLengths::resolving_walls(const Attempt& attempt, double max_faces) const {
+  constexpr double max_share = .2, fine_share = .1, coarser = 16. / 9, least = .1;
+  const std::vector<LeftWall> walls = left_walls(maker_, attempt, max_share);
+  if (are_few(walls.size(), attempt)) return std::nullopt;
+  for (double share = fine_share; share < 2 * max_share; share *= coarser) {
+    AskedLengths lengths = attempt.lengths;
+    for (const LeftWall& w : walls) {  // chords leave a smooth surface by the square of lengths
+      const double finer = std::max(std::sqrt(share * w.thickness / w.distance), least);
+      if (finer < 1) lengths.shorter.push_back({w.from, w.to, w.target * finer});
+    }
+    if (faces_of(lengths, max_faces) <= max_faces) return lengths;
+  }
   return std::nullopt;
 }
 

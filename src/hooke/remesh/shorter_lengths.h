@@ -1,4 +1,5 @@
-// Target lengths that get shorter where an attempt does not keep the input, or is too coarse for its bends.
+// Target lengths that get shorter where an attempt does not keep the input, or is too coarse for its bends
+// and walls.
 #pragma once
 
 #include <optional>
@@ -26,6 +27,11 @@ class ShorterLengths {
   /// many; if all do, by the target lengths there, though edges are shorter already. None if all take too
   /// many faces, or if hardly an edge bends so.
   std::optional<AskedLengths> resolving_bends(const Attempt& attempt, double max_faces) const;
+
+  /// Those of an attempt, shortened where it is off by more than a fifth of a wall or gap of the input: so
+  /// short that it would be a tenth or, if these lengths took more than `max_faces`, .18 or .32. None if all
+  /// take too many faces, or if hardly anything is off so much.
+  std::optional<AskedLengths> resolving_walls(const Attempt& attempt, double max_faces) const;
 
   /// The number of faces that these lengths take, or more than `enough`.
   double faces_of(const AskedLengths& lengths, double enough) const;
