@@ -65,7 +65,7 @@ void warn_of_crossings(RunRecord& run) {
   run.warnings.push_back(
       {"self_intersections_added",
        fmt::format("{}: {} self-intersections, {} before{}", run.output->path, crossings, before,
-                   only_there ? ", all where the surface crosses itself already" : "")});
+                   only_there ? ", all where the surface crosses or touches itself already" : "")});
 }
 
 /// Has a closed body lost or gained more than a fiftieth of its volume, as a thin tube of long edges does?

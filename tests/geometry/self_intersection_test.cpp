@@ -98,6 +98,22 @@ TEST(SelfIntersection, SegmentIsWhatBothTrianglesShare) {
   EXPECT_NEAR(from.z(), 0, 1e-12);
 }
 
+TEST(SelfIntersection, SegmentOfTrianglesThatTouchIsAPointOfBoth) {
+  const std::array<Vec3, 3> ground = {Vec3(0, 0, 0), Vec3(4, 0, 0), Vec3(0, 4, 0)};
+  const std::array<std::array<Vec3, 3>, 4> others = {{
+      {Vec3(1, 1, 1e-17), Vec3(2, 1, 1e-17), Vec3(1, 1, 9)},  // stands on it
+      {Vec3(2, 2, -1e-17), Vec3(9, 9, 0), Vec3(9, 9, 9)},     // at its edge
+      {Vec3(3, -2, 0), Vec3(3, .5, 1e-17), Vec3(9, -2, 0)},   // in its plane
+      {Vec3(-3, 1, 0), Vec3(9, 1, 0), Vec3(9, 1.5, 0)},       // across it
+  }};
+  for (const std::array<Vec3, 3>& other : others)
+    for (const auto& [from, to] : {crossing_segment(ground, other), crossing_segment(other, ground)})
+      for (const Vec3& x : {from, to}) {
+        EXPECT_LT(closest_point(x, ground[0], ground[1], ground[2]).squared_distance, 1e-24);
+        EXPECT_LT(closest_point(x, other[0], other[1], other[2]).squared_distance, 1e-24);
+      }
+}
+
 TEST(SelfIntersection, SameThreeVerticesAreNoPair) {
   EXPECT_EQ(count(test::triangles({a, b, c}, {{0, 1, 2}, {0, 2, 1}})), 0u);
 }

@@ -162,6 +162,35 @@ bool triangles_meet(const Corners& s, const Corners& t) {
   return false;
 }
 
+namespace {
+
+/// The middle between the points of two segments that are closest to each other, and their squared distance.
+ClosestPoint nearest_between_edges(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+  const Vec3 u = b - a, v = d - c, w = a - c;
+  const double uu = u.squaredNorm(), uv = u.dot(v), vv = v.squaredNorm(), area = uu * vv - uv * uv;
+  const double along = area > 0 ? std::clamp((uv * v.dot(w) - vv * u.dot(w)) / area, 0., 1.) : 0;
+  const double other = std::clamp(v.dot(w + along * u) / vv, 0., 1.);
+  const Vec3 y = c + other * v, x = a + std::clamp(u.dot(y - a) / uu, 0., 1.) * u;
+  return {.5 * (x + y), (x - y).squaredNorm()};
+}
+
+/// A point between two triangles where they are closest to each other.
+Vec3 nearest_between(const Corners& s, const Corners& t) {
+  ClosestPoint nearest;
+  const auto keep_nearer = [&](const ClosestPoint& candidate) {
+    if (candidate.squared_distance < nearest.squared_distance) nearest = candidate;
+  };
+  for (size_t k = 0; k < 3; ++k) {
+    keep_nearer(closest_point(s[k], t[0], t[1], t[2]));
+    keep_nearer(closest_point(t[k], s[0], s[1], s[2]));
+    for (size_t l = 0; l < 3; ++l)
+      keep_nearer(nearest_between_edges(s[k], s[(k + 1) % 3], t[l], t[(l + 1) % 3]));
+  }
+  return nearest.point;
+}
+
+}  // namespace
+
 std::array<Vec3, 2> crossing_segment(const Corners& s, const Corners& t) {
   std::vector<Vec3> ends;
   const auto add_piercings = [&](const Corners& edges_of, const Corners& plane_of) {
@@ -180,7 +209,7 @@ std::array<Vec3, 2> crossing_segment(const Corners& s, const Corners& t) {
   };
   add_piercings(s, t);
   add_piercings(t, s);
-  if (ends.empty()) ends.push_back((s[0] + s[1] + s[2] + t[0] + t[1] + t[2]) / 6);
+  if (ends.empty()) ends.push_back(nearest_between(s, t));
   const auto farthest =
       std::ranges::max_element(ends, {}, [&](const Vec3& x) { return (x - ends.front()).squaredNorm(); });
   return {ends.front(), *farthest};

@@ -9,7 +9,7 @@ namespace hooke {
 /// Pre-condition: both have a positive area.
 bool triangles_meet(const std::array<Vec3, 3>& s, const std::array<Vec3, 3>& t);
 
-/// The ends of the segment in which two triangles that meet cross, up to rounding; twice a point between them
+/// The ends of the segment in which two triangles that meet cross, up to rounding; twice a point of both
 /// where they lie in one plane, or only touch.
 std::array<Vec3, 2> crossing_segment(const std::array<Vec3, 3>& s, const std::array<Vec3, 3>& t);
 
