@@ -43,7 +43,8 @@ void warn_of_time(const Settings& s, RunRecord& run) {
 
 void warn_of_folds(RunRecord& run) {
   std::vector<int> folded = folded_faces(run);
-  if (folded.empty()) return;
+  const bool is_unmoved = run.deviation->displacement && run.deviation->displacement->max == 0;
+  if (folded.empty() || is_unmoved) return;
   constexpr size_t max_listed = 10;
   const size_t count = folded.size();
   folded.resize(std::min(count, max_listed));

@@ -158,4 +158,16 @@ std::vector<Bend> unresolved_bends(const AttemptMaker& maker, const Attempt& att
   return unresolved;
 }
 
+void note_bends(const AttemptMaker& maker, Attempt& attempt) {
+  constexpr double sharp = 60, smooth = 40;  // degrees: of a hexagon and a nonagon
+  RemeshResult& result = attempt.result;
+  if (!result.measures || attempt.is_interrupted() || result.rescue == Rescue::put_back) return;
+  for (const Bend& bend : unresolved_bends(maker, attempt, sharp, smooth)) {
+    ++result.sharp_bends;
+    if (bend.angle <= result.sharpest_bend) continue;
+    result.sharpest_bend = bend.angle;
+    result.sharpest_place = .5 * (bend.from + bend.to);
+  }
+}
+
 }  // namespace hooke

@@ -62,8 +62,8 @@ class PreservingRemesh {
       best.result.refused_distance = refused_distance_;
     if (!is_of_part()) keep_mirrors(maker_, asked_, start.constraints, best);
     if (!is_of_part()) {
-      note_bends(best);
-      note_walls(best);
+      note_bends(maker_, best);
+      note_walls(maker_, best);
     }
     if (!best.lengths.shorter.empty()) best.result.shortened = shorter_.count_in(best);
     if (!maker_.adapts() && vertex_points(best.mesh) == maker_.as_written(vertex_points(maker_.mesh())))
@@ -95,32 +95,6 @@ class PreservingRemesh {
     if (!is_valid(best) && !maker_.adapts()) put_back(best);
     if (!best.is_interrupted() && !maker_.smooths_mask()) take_back_slivers(maker_, best);
     return best;
-  }
-
-  void note_bends(Attempt& best) const {
-    constexpr double sharp = 60, smooth = 40;  // degrees: of a hexagon and a nonagon
-    if (!best.result.measures || best.is_interrupted() || best.result.rescue == Rescue::put_back) return;
-    for (const Bend& bend : unresolved_bends(maker_, best, sharp, smooth)) {
-      ++best.result.sharp_bends;
-      if (bend.angle <= best.result.sharpest_bend) continue;
-      best.result.sharpest_bend = bend.angle;
-      best.result.sharpest_place = .5 * (bend.from + bend.to);
-    }
-  }
-
-  void note_walls(Attempt& best) const {
-    constexpr double much = .25;  // of the thickness
-    if (!best.result.measures || !maker_.has_facets() || maker_.smooths_mask() || best.is_interrupted() ||
-        best.result.rescue == Rescue::put_back)
-      return;
-    const auto lost_share = [](const LeftWall& wall) { return wall.distance / wall.thickness; };
-    const std::vector<LeftWall> walls = left_walls(maker_, best, much);
-    if (walls.empty()) return;
-    const LeftWall& worst = *std::ranges::max_element(walls, {}, lost_share);
-    best.result.left_walls = static_cast<int>(walls.size());
-    best.result.thickness = worst.thickness;
-    best.result.lost_thickness = worst.distance;
-    best.result.thin_place = .5 * (worst.from + worst.to);
   }
 
   /// Has it, in modes `fixed` and `flip`, so many slivers that other lengths may do better? Those with a

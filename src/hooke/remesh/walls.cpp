@@ -69,4 +69,20 @@ std::vector<LeftWall> left_walls(const AttemptMaker& maker, const Attempt& attem
   return walls;
 }
 
+void note_walls(const AttemptMaker& maker, Attempt& attempt) {
+  constexpr double much = .25;  // of the thickness
+  RemeshResult& result = attempt.result;
+  if (!result.measures || !maker.has_facets() || maker.smooths_mask() || attempt.is_interrupted() ||
+      result.rescue == Rescue::put_back)
+    return;
+  const std::vector<LeftWall> walls = left_walls(maker, attempt, much);
+  if (walls.empty()) return;
+  const auto lost_share = [](const LeftWall& wall) { return wall.distance / wall.thickness; };
+  const LeftWall& worst = *std::ranges::max_element(walls, {}, lost_share);
+  result.left_walls = static_cast<int>(walls.size());
+  result.thickness = worst.thickness;
+  result.lost_thickness = worst.distance;
+  result.thin_place = .5 * (worst.from + worst.to);
+}
+
 }  // namespace hooke

@@ -25,4 +25,8 @@ struct LeftWall {
 /// walls thinner than 1e-4 of the diagonal.
 std::vector<LeftWall> left_walls(const AttemptMaker& maker, const Attempt& attempt, double share);
 
+/// Notes in the result those of more than a quarter of the thickness, where the facets of the input are
+/// meant.
+void note_walls(const AttemptMaker& maker, Attempt& attempt);
+
 }  // namespace hooke
