@@ -3,10 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdint>
 
 #include "hooke/mesh/adjacency.h"
 #include "hooke/mesh/normals.h"
+#include "support/crease_solids.h"
 #include "support/meshes.h"
 #include "support/solids.h"
 
@@ -91,6 +93,24 @@ TEST(PatchGrower, DoesNotCrossAKnifeEdge) {
   grower.grow(2, 30);
   EXPECT_EQ(grower.members(), (std::vector<int>{2, 1, 0}));
   EXPECT_TRUE(grower.is_inside(0));  // as far as the cone admits its ring
+}
+
+TEST(PartitionOfUnity, TheHubOfAWideFanCostsNoMoreThanThatOfANarrowOne) {
+  const auto seconds_at_hub = [](int sides) {
+    const Covered s{test::pyramid(sides, 1, .5)};
+    const PartitionOfUnity psi(s.mesh.points, s.adjacency, s.normals, s.edge_lengths);
+    const Vec3 hub = s.mesh.points.col(sides);
+    EXPECT_NEAR(psi(hub, sides).value, 0, 1e-6);
+    double least = 1e9;
+    for (int attempt = 0; attempt < 9; ++attempt) {
+      const auto start = std::chrono::steady_clock::now();
+      for (int i = 0; i < 100; ++i) EXPECT_LT(psi(hub + Vec3(0, .001 * i, 0), sides).value, 1);
+      least =
+          std::min(least, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    }
+    return least;
+  };
+  EXPECT_LT(seconds_at_hub(6000), 4 * seconds_at_hub(300));  // twenty times as many neighbours
 }
 
 }  // namespace hooke::partition_of_unity_test

@@ -1,6 +1,7 @@
 #include "hooke/filter/partition_of_unity.h"
 
 #include <algorithm>
+#include <span>
 #include <utility>
 
 #include "hooke/core/parallel.h"
@@ -135,6 +136,10 @@ constexpr std::size_t min_quadratic_size = 15;  // minimum number of patch verti
 constexpr double coincidence = 1e-6;            // in radii; centres closer than this are dropped
 constexpr double min_height = 1e-8;             // in radii; smaller values are not offsets
 
+/// Several times as many as other vertices have: the hub of a fan lies in the patches of all its neighbours,
+/// and each point tracked there would evaluate them all.
+constexpr std::size_t max_patches_of_vertex = 64;
+
 /// Patches per batch: many in a large mesh, so that short-lived small allocations do not fragment memory.
 std::size_t patches_of_batch(int vertices) {
   return std::clamp<std::size_t>(vertices / 1000, 32, 512);
@@ -206,7 +211,6 @@ PartitionOfUnity::PartitionOfUnity(const Eigen::Ref<const Mat3X>& points, const 
     return &batches.back();
   };
   parallel_pipeline<Batch>(next_batch, [&](Batch& batch) { fit(samples, batch); });
-  index_patches(adjacency.vertex_count, batches);
   std::size_t count = 0;
   for (const Batch& batch : batches) count += batch.patches.size();
   patches_.reserve(count);
@@ -215,6 +219,7 @@ PartitionOfUnity::PartitionOfUnity(const Eigen::Ref<const Mat3X>& points, const 
     patches_.insert(patches_.end(), batch.patches.begin(), batch.patches.end());
     storage_.push_back(std::move(batch.storage));
   }
+  index_patches(points, batches);
 }
 
 /// Coordinates are relative to the centre, in radii. The field is zero at the vertices [11] and a distance
@@ -283,7 +288,8 @@ void PartitionOfUnity::fit(const Samples& samples, Batch& batch) const {
   }
 }
 
-void PartitionOfUnity::index_patches(int vertex_count, const std::deque<Batch>& batches) {
+void PartitionOfUnity::index_patches(const Eigen::Ref<const Mat3X>& points,
+                                     const std::deque<Batch>& batches) {
   const auto for_each_pair = [&](const auto& visit) {
     int id = 0;
     for (const Batch& batch : batches)
@@ -292,12 +298,36 @@ void PartitionOfUnity::index_patches(int vertex_count, const std::deque<Batch>& 
           for (int v : batch.list.members[static_cast<int>(p)]) visit(v, id);
   };
   std::vector<int>&first = vertex_patches_.first, &items = vertex_patches_.items;
-  first.assign(vertex_count + 1, 0);
+  first.assign(points.cols() + 1, 0);
   for_each_pair([&](std::size_t v, int) { ++first[v + 1]; });
   for (std::size_t v = 1; v < first.size(); ++v) first[v] += first[v - 1];
   items.resize(first.back());
   std::vector<int> next = first;
   for_each_pair([&](std::size_t v, int p) { items[next[v]++] = p; });
+  drop_shallow_patches(points);
+}
+
+/// Leaves no vertex more than max_patches_of_vertex patches: those in which it lies deepest, in their order.
+void PartitionOfUnity::drop_shallow_patches(const Eigen::Ref<const Mat3X>& points) {
+  std::vector<int>&first = vertex_patches_.first, &items = vertex_patches_.items;
+  int kept = 0;
+  for (std::size_t v = 0; v + 1 < first.size(); ++v) {
+    const int begin = std::exchange(first[v], kept);
+    std::span<int> patches(items.data() + begin, items.data() + first[v + 1]);
+    if (patches.size() > max_patches_of_vertex) {
+      const Vec3 place = points.col(static_cast<Eigen::Index>(v));
+      const auto shallowness = [&](int p) {
+        return std::pair(((place - patches_[p].centre) / patches_[p].radius).squaredNorm(), p);
+      };
+      std::ranges::nth_element(patches, patches.begin() + max_patches_of_vertex, {}, shallowness);
+      patches = patches.first(max_patches_of_vertex);
+      std::ranges::sort(patches);
+    }
+    if (kept < begin) std::ranges::copy(patches, items.begin() + kept);
+    kept += static_cast<int>(patches.size());
+  }
+  first.back() = kept;
+  items.resize(kept);
 }
 
 FieldSample PartitionOfUnity::operator()(const Vec3& x, int hint) const {

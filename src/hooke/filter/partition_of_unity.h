@@ -155,7 +155,8 @@ class PartitionOfUnity {
   /// Collects the data that the spline of a patch is fitted to.
   static void gather(const Samples& samples, const PatchList& list, std::size_t patch, SplineData& data);
   void fit(const Samples& samples, Batch& batch) const;
-  void index_patches(int vertex_count, const std::deque<Batch>& batches);
+  void index_patches(const Eigen::Ref<const Mat3X>& points, const std::deque<Batch>& batches);
+  void drop_shallow_patches(const Eigen::Ref<const Mat3X>& points);
 
   Kernel kernel_;
   std::vector<Storage> storage_;
