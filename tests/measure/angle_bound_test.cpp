@@ -10,6 +10,7 @@
 #include "hooke/geometry/triangle.h"
 #include "hooke/measure/quality.h"
 #include "hooke/mesh/adjacency.h"
+#include "support/crease_solids.h"
 #include "support/solids.h"
 
 namespace hooke::angle_bound_test {
@@ -39,6 +40,17 @@ TEST(AngleBound, ACornerCutIntoThreeLeavesAThirdOfItsAngle) {
   const AngleBound b = bound(t, 1);
   EXPECT_NEAR(b.degrees, 30, 2e-3);
   EXPECT_EQ(b.vertices, std::vector<int>{0});
+}
+
+TEST(AngleBound, AHubOfThousandsOfFacesLeavesEachItsShare) {
+  const int sides = 20000;
+  const test::Triangles cone = test::pyramid(sides, 1, 0);
+  for (int f : {0, 1, 2 * sides - 1}) {
+    const AngleBound b = bound(cone, f);
+    EXPECT_NEAR(b.degrees, 360. / sides, 2e-3);
+    ASSERT_EQ(b.vertices.size(), 1u);
+    EXPECT_GE(b.vertices[0], sides);
+  }
 }
 
 TEST(AngleBound, WhatIsThereIsPossible) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <span>
 
 #include "hooke/core/lists.h"
 #include "hooke/geometry/triangle.h"
@@ -20,6 +21,10 @@ namespace {
 constexpr double units_per_degree = 1e6;
 
 using Amount = std::int64_t;
+
+/// Rings do not spread over vertices with more faces: at the hub of a fan they would take in all of it, and
+/// the flow through a hub takes quadratic time. Its angle sum bounds the faces of the patch all the same.
+constexpr size_t max_faces_to_spread = 64;
 
 /// Faces around a face, with their vertices.
 struct Patch {
@@ -50,7 +55,8 @@ Patch patch_around(const Mat3X& points, const Adjacency& c, int face, int rings)
   for (int ring = 0; ring < rings; ++ring) {
     const std::vector<int> vertices = corners_of(c, patch.faces);
     for (int v : vertices)
-      for (int f : c.vertex_faces[v]) patch.faces.push_back(f);
+      if (const std::span<const int> around = c.vertex_faces[v]; around.size() <= max_faces_to_spread)
+        patch.faces.insert(patch.faces.end(), around.begin(), around.end());
     sort_unique(patch.faces);
   }
   patch.vertices = corners_of(c, patch.faces);
