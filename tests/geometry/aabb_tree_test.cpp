@@ -9,6 +9,7 @@
 #include <random>
 #include <set>
 
+#include "support/crease_solids.h"
 #include "support/solids.h"
 
 namespace hooke::aabb_tree_test {
@@ -51,6 +52,61 @@ TEST(AabbTree, ClosestPointEqualsBruteForce) {
     ASSERT_EQ(found.squared_distance, best.squared_distance);
     ASSERT_EQ(found.point, best.point);
   }
+}
+
+/// A flat round cap whose needles meet at its centre, turned out of the axes or not.
+test::Triangles round_cap(int sides, bool turned) {
+  test::Triangles t = test::pyramid(sides, 1, 0);
+  t.faces.resize(sides);
+  std::ranges::generate(t.faces, [f = 0, sides]() mutable {
+    const int at = f++;
+    return Triangle{at, (at + 1) % sides, sides};
+  });
+  return turned ? test::moved(t) : t;
+}
+
+TEST(AabbTree, FewNeedlesOfAFanAreTestedForAPoint) {
+  std::mt19937 random(6);
+  std::uniform_real_distribution<double> u(0, 1);
+  for (bool turned : {false, true})
+    for (int sides : {1000, 8000}) {
+      const test::Triangles t = round_cap(sides, turned);
+      const AabbTree tree(t.points, t.faces);
+      EXPECT_FALSE(tree.slabs().empty());
+      int tested = 0;
+      for (int i = 0; i < 100; ++i) {
+        const int f = static_cast<int>(u(random) * sides);
+        const auto& [a, b, c] = t.faces[f];
+        const double height = .01 * u(random), share = .2 + .8 * u(random);
+        const Vec3 hub = t.points.col(c), rim = .5 * (t.points.col(a) + t.points.col(b)),
+                   up = (t.points.col(a) - hub).cross(t.points.col(b) - hub).normalized(),
+                   x = hub + share * (rim - hub) + height * up;
+        const ClosestPoint found = tree.closest(x, [&](int) { return ++tested > 0; });
+        EXPECT_NEAR(found.squared_distance, height * height, 1e-12);
+      }
+      EXPECT_LT(tested, 100 * 100) << sides;
+    }
+}
+
+TEST(AabbTree, SlabsChangeNoAnswer) {
+  const test::Triangles cone = test::pyramid(400, 1, .5), cap = round_cap(500, true);
+  std::mt19937 random(8);
+  std::uniform_real_distribution<double> u(-1.5, 1.5);
+  for (const test::Triangles& t : {cone, cap, test::shaken(cap, .01)}) {
+    const AabbTree tree(t.points, t.faces);
+    EXPECT_FALSE(tree.slabs().empty());
+    for (int i = 0; i < 300; ++i) {
+      Vec3 x(u(random), u(random), u(random));
+      if (i % 3 == 0) x = t.points.col(i);
+      double least = std::numeric_limits<double>::infinity();
+      for (const auto& [a, b, c] : t.faces)
+        least = std::min(
+            least, closest_point(x, t.points.col(a), t.points.col(b), t.points.col(c)).squared_distance);
+      ASSERT_EQ(tree.closest(x).squared_distance, least);
+    }
+  }
+  const test::Triangles round = test::sphere(4, .3);
+  EXPECT_TRUE(AabbTree(round.points, round.faces).slabs().empty());
 }
 
 TEST(AabbTree, AKnownPointOnlyShortensTheSearch) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <random>
 
+#include "support/crease_solids.h"
 #include "support/solids.h"
 
 namespace hooke::closest_faces_test {
@@ -56,6 +57,18 @@ TEST(NearestFaces, AreFoundFarAwayAndOnTheFacesThemselves) {
   NearestFaceSearch find(tree);
   expect_nearest_of_all(tree, cluster(random, 50, 100, .1), find);
   for (const AabbTree::Face& face : tree.faces().first(20))
+    expect_nearest_of_all(tree, {face.corners.begin(), face.corners.end()}, find);
+}
+
+TEST(NearestFaces, AreFoundAmongNeedlesWhoseBoxesOverlap) {
+  std::mt19937 random(10);
+  const test::Triangles t = test::moved(test::pyramid(400, 1, .5));
+  const AabbTree tree(t.points, t.faces);
+  ASSERT_FALSE(tree.slabs().empty());
+  NearestFaceSearch find(tree);
+  for (double spread : {.01, 1.})
+    for (size_t count : {1, 11, 170}) expect_nearest_of_all(tree, cluster(random, count, 1.2, spread), find);
+  for (const AabbTree::Face& face : tree.faces().first(50))
     expect_nearest_of_all(tree, {face.corners.begin(), face.corners.end()}, find);
 }
 

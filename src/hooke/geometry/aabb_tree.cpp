@@ -1,8 +1,11 @@
 #include "hooke/geometry/aabb_tree.h"
 
+#include <Eigen/Eigenvalues>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 #include "hooke/core/parallel.h"
 #include "hooke/core/simd.h"
@@ -102,6 +105,11 @@ AabbTree::AabbTree(const Mat3X& points, const std::vector<Triangle>& faces,
   boxes_.resize(size_t{2} << depth_);
   boxes_[0] = Box();
   compute_boxes(1, 0);
+  if (!has_many_overlaps()) return;
+  slabs_.resize(boxes_.size());
+  parallel_for(slabs_.size(), tree_block, [&](size_t begin, size_t end) {
+    for (size_t node = std::max<size_t>(begin, 1); node < end; ++node) compute_slab(node);
+  });
 }
 
 std::vector<int> AabbTree::order() const {
@@ -127,6 +135,70 @@ void AabbTree::compute_boxes(size_t node, int level) {
   else
     compute_children(0, 2);
   boxes_[node] = boxes_[2 * node].merged(boxes_[2 * node + 1]);
+}
+
+/// Whether many boxes of other faces hold the middle of a face, on average over some faces.
+bool AabbTree::has_many_overlaps() const {
+  constexpr size_t sample = 64, many = 24;
+  if (faces_.size() < sample) return false;
+  size_t overlaps = 0;
+  for (size_t k = 0; k < sample; ++k) {
+    const auto& [a, b, c] = faces_[k * faces_.size() / sample].corners;
+    const Vec3 middle = (a + b + c) / 3;
+    for_each_leaf(
+        0, [&](size_t node) { return boxes_[node].contains(middle); },
+        [&](size_t leaf) {
+          for (const Face& face : faces_of(leaf)) overlaps += face.box().contains(middle);
+        });
+  }
+  return overlaps > many * sample;
+}
+
+/// The planes are perpendicular to the direction in which the corners spread second most: the most is along
+/// the needles, the least across the surface.
+void AabbTree::compute_slab(size_t node) {
+  constexpr size_t max_faces = 1024;  // wider sectors have no such direction
+  const int levels_below = depth_ + 1 - static_cast<int>(std::bit_width(node));
+  const size_t first = first_face((node << levels_below) - leaf_count()),
+               end = first_face(((node + 1) << levels_below) - leaf_count());
+  if (first == end || end - first > max_faces) return;
+  const std::span<const Face> some = faces().subspan(first, end - first);
+  Slab slab{.centre = boxes_[node].center()};
+  const auto for_each_corner = [&](const auto& visit) {
+    for (const Face& face : some)
+      for (const Vec3& corner : face.corners) visit(Vec3(corner - slab.centre));
+  };
+  Vec3 mean = Vec3::Zero();
+  for_each_corner([&](const Vec3& d) { mean += d / (3. * static_cast<double>(some.size())); });
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  for_each_corner([&](const Vec3& d) { spread += (d - mean) * (d - mean).transpose(); });
+  const Vec3 across = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors().col(1);
+  if (!(std::abs(across.squaredNorm() - 1) < slab_rounding)) return;  // overflow
+  double low = std::numeric_limits<double>::infinity(), high = -low, size = 0;
+  for_each_corner([&](const Vec3& d) {
+    low = std::min(low, across.dot(d));
+    high = std::max(high, across.dot(d));
+    size = std::max(size, d.lpNorm<1>());
+  });
+  slab.across = across;
+  slab.centre += .5 * (low + high) * across;
+  slab.half_width = .5 * (high - low) + slab_rounding * (size + slab.centre.lpNorm<1>());
+  slabs_[node] = slab;
+}
+
+bool AabbTree::is_beside_slab(size_t node, std::span<const Face> faces) const {
+  if (slabs_.empty()) return false;
+  const Slab& slab = slabs_[node];
+  bool below = true, above = true;
+  for (const Face& face : faces)
+    for (const Vec3& corner : face.corners) {
+      const Vec3 d = corner - slab.centre;
+      const double height = slab.across.dot(d), limit = slab.half_width + slab_rounding * d.lpNorm<1>();
+      below = below && height < -limit;
+      above = above && height > limit;
+      if (!below && !above) return false;
+    }
+  return true;
 }
 
 AabbTree::PartBoxes::PartBoxes(std::span<const Face> faces) {

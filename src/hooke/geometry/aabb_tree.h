@@ -140,6 +140,17 @@ class AabbTree {
   template <typename Accepts>
   bool has_face_within(double distance, const Vec3& x, const Accepts& accepts) const;
 
+  /// The space between two parallel planes.
+  struct Slab {
+    Vec3 across = Vec3::Zero();  // unit normal of the planes; zero: all of space
+    Vec3 centre = Vec3::Zero();
+    double half_width = 0;
+  };
+
+  /// Of all nodes, as another bound of their faces. Boxes tell little of needles that are slanted to the
+  /// axes, as in the fan over a round cap: each overlaps those of most others. Empty where few boxes overlap.
+  std::span<const Slab> slabs() const { return slabs_; }
+
   /// The boxes of all nodes; the leaves are the nodes from leaf_count() on.
   std::span<const Box> boxes() const { return boxes_; }
   size_t leaf_count() const { return boxes_.size() / 2; }
@@ -152,8 +163,8 @@ class AabbTree {
     return faces().subspan(first_face(leaf), first_face(leaf + 1) - first_face(leaf));
   }
 
-  /// Calls visit(leaf), in ascending order, for the leaves from `first` on for which is_relevant(box) is true
-  /// of their own box and of the boxes of all their ancestors.
+  /// Calls visit(leaf), in ascending order, for the leaves from `first` on for which is_relevant(node) is
+  /// true of their own node and of all those above it.
   template <typename IsRelevant, typename Visit>
   void for_each_leaf(size_t first, const IsRelevant& is_relevant, const Visit& visit) const {
     size_t stack[max_depth + 1];
@@ -163,7 +174,7 @@ class AabbTree {
       const size_t i = stack[--size];
       const int level = static_cast<int>(std::bit_width(i)) - 1;
       const size_t leaves_end = ((i + 1) << (depth_ - level)) - leaf_count();
-      if (leaves_end <= first || !is_relevant(boxes_[i])) continue;
+      if (leaves_end <= first || !is_relevant(i)) continue;
       if (is_leaf(i)) {
         visit(i - leaf_count());
         continue;
@@ -178,12 +189,22 @@ class AabbTree {
   size_t parts() const { return (faces_.size() + faces_of_part - 1) / faces_of_part; }
   template <typename Visit>
   void for_each_overlapping_pair(size_t begin, size_t end, const Visit& visit) const {
-    for (size_t part = begin; part < end; ++part) visit_pairs(part * faces_of_part, visit);
+    for_each_overlapping_pair(
+        begin, end, [](std::span<const Face>, std::span<const Face>) { return false; }, visit);
+  }
+
+  /// The same but for the pairs of groups that are apart: where many boxes of two small groups overlap, as
+  /// those of needles side by side do, are_apart(faces, others) is asked first.
+  template <typename AreApart, typename Visit>
+  void for_each_overlapping_pair(size_t begin, size_t end, const AreApart& are_apart,
+                                 const Visit& visit) const {
+    for (size_t part = begin; part < end; ++part) visit_pairs(part * faces_of_part, are_apart, visit);
   }
 
  private:
   static constexpr size_t leaf_size = 4;
   static constexpr size_t faces_of_part = 16;
+  static constexpr int many_pairs = 24;  // of a part and a leaf; 64 are the most
 
   /// The boxes of a part's faces, coordinate by coordinate.
   struct PartBoxes {
@@ -197,26 +218,44 @@ class AabbTree {
   };
 
   /// Visits the pairs of a face of the part that begins at index `first` and a later face.
-  template <typename Visit>
-  void visit_pairs(size_t first, const Visit& visit) const {
-    const PartBoxes boxes(faces().subspan(first, std::min(faces_of_part, faces_.size() - first)));
+  template <typename AreApart, typename Visit>
+  void visit_pairs(size_t first, const AreApart& are_apart, const Visit& visit) const {
+    const std::span<const Face> part = faces().subspan(first, std::min(faces_of_part, faces_.size() - first));
+    const PartBoxes boxes(part);
     for_each_leaf(
-        (first << depth_) / faces_.size(), [&](const Box& box) { return box.intersects(boxes.all); },
+        (first << depth_) / faces_.size(),
+        [&](size_t node) { return boxes_[node].intersects(boxes.all) && !is_beside_slab(node, part); },
         [&](size_t leaf) {
-          for (size_t index = std::max(first_face(leaf), first + 1); index < first_face(leaf + 1); ++index) {
-            unsigned overlapping = boxes.overlapping(faces_[index].box());
-            if (index - first < faces_of_part) overlapping &= (1U << (index - first)) - 1;
-            for (; overlapping != 0; overlapping &= overlapping - 1)
-              visit(faces_[first + std::countr_zero(overlapping)], faces_[index]);
+          const size_t begin = std::max(first_face(leaf), first + 1), end = first_face(leaf + 1);
+          std::array<unsigned, leaf_size> overlapping{};  // of each face of the leaf
+          int count = 0;
+          for (size_t index = begin; index < end; ++index) {
+            unsigned& bits = overlapping[index - begin];
+            bits = boxes.overlapping(faces_[index].box());
+            if (index - first < faces_of_part) bits &= (1U << (index - first)) - 1;
+            count += std::popcount(bits);
           }
+          if (count >= many_pairs && are_apart(part, faces().subspan(begin, end - begin))) return;
+          for (size_t index = begin; index < end; ++index)
+            for (unsigned bits = overlapping[index - begin]; bits != 0; bits &= bits - 1)
+              visit(faces_[first + std::countr_zero(bits)], faces_[index]);
         });
   }
 
+  /// A lower bound of the squared distance of the node's faces.
+  double squared_distance_to(size_t node, const Vec3& x) const;
+
+  /// Whether all faces lie on one side of the node's slab.
+  bool is_beside_slab(size_t node, std::span<const Face> faces) const;
+
   void compute_boxes(size_t node, int level);
+  bool has_many_overlaps() const;
+  void compute_slab(size_t node);
 
   int depth_ = 0;                    // levels below the root
   UninitializedVector<Face> faces_;  // leaf by leaf
   UninitializedVector<Box> boxes_;   // by node; entry 0 is unused
+  std::vector<Slab> slabs_;          // the same, or none
 };
 
 /// Keeps the face in `best` if it is closer, or as close and of a lower id.
@@ -233,6 +272,18 @@ inline double squared_distance(const Vec3& x, const AabbTree::Box& box) {
   return (box.min() - x).cwiseMax(x - box.max()).cwiseMax(0).squaredNorm();
 }
 
+/// Bounds the rounding error of a distance to a slab, relative to that to its centre.
+inline constexpr double slab_rounding = 1e-14;
+
+inline double AabbTree::squared_distance_to(size_t node, const Vec3& x) const {
+  const double to_box = squared_distance(x, boxes_[node]);
+  if (slabs_.empty()) return to_box;
+  const Slab& slab = slabs_[node];
+  const Vec3 d = x - slab.centre;
+  const double gap = std::abs(slab.across.dot(d)) - slab.half_width - slab_rounding * d.lpNorm<1>();
+  return gap > 0 ? std::max(to_box, gap * gap) : to_box;
+}
+
 template <typename Accepts>
 bool AabbTree::has_face_within(double distance, const Vec3& x, const Accepts& accepts) const {
   if (empty()) return false;
@@ -242,10 +293,10 @@ bool AabbTree::has_face_within(double distance, const Vec3& x, const Accepts& ac
   stack[size++] = 1;
   while (size > 0) {
     const size_t node = stack[--size];
-    if (squared_distance(x, boxes_[node]) > limit) continue;
+    if (squared_distance_to(node, x) > limit) continue;
     if (!is_leaf(node)) {
       const size_t left = 2 * node, right = left + 1;
-      const bool left_first = squared_distance(x, boxes_[left]) <= squared_distance(x, boxes_[right]);
+      const bool left_first = squared_distance_to(left, x) <= squared_distance_to(right, x);
       stack[size++] = left_first ? right : left;
       stack[size++] = left_first ? left : right;
       continue;
@@ -268,7 +319,7 @@ ClosestPoint AabbTree::closest(const Vec3& x, const Accepts& accepts, const Clos
   };
   Visit stack[max_depth + 1];
   int size = 0;
-  stack[size++] = {1, squared_distance(x, boxes_[1])};
+  stack[size++] = {1, squared_distance_to(1, x)};
   while (size > 0) {
     const Visit visit = stack[--size];
     if (visit.distance > best.squared_distance) continue;
@@ -278,8 +329,8 @@ ClosestPoint AabbTree::closest(const Vec3& x, const Accepts& accepts, const Clos
           update_closest(x, face.corners, face.id, best);
       continue;
     }
-    Visit near{2 * visit.node, squared_distance(x, boxes_[2 * visit.node])};
-    Visit far{2 * visit.node + 1, squared_distance(x, boxes_[2 * visit.node + 1])};
+    Visit near{2 * visit.node, squared_distance_to(2 * visit.node, x)};
+    Visit far{2 * visit.node + 1, squared_distance_to(2 * visit.node + 1, x)};
     if (far.distance < near.distance) std::swap(near, far);
     if (far.distance <= best.squared_distance) stack[size++] = far;
     if (near.distance <= best.squared_distance) stack[size++] = near;

@@ -129,6 +129,26 @@ HOOKE_INLINE void distances_to(const Box& box, const LaneVec& x, Lanes& squared)
   dot(d, d, squared);
 }
 
+/// The same where the slab is farther away.
+HOOKE_INLINE void raise_to_distances_to(const AabbTree::Slab& slab, const LaneVec& x, Lanes& squared) {
+  const Lanes zero = {};
+  LaneVec d;
+  difference(x, slab.centre, d);
+  Lanes height;
+  dot(d, slab.across, height);
+  const Lanes to_centre = (d.x > zero ? d.x : -d.x) + (d.y > zero ? d.y : -d.y) + (d.z > zero ? d.z : -d.z);
+  Lanes gap = (height > zero ? height : -height) - slab.half_width - slab_rounding * to_centre;
+  gap = gap > zero ? gap : zero;
+  gap *= gap;
+  squared = squared > gap ? squared : gap;
+}
+
+/// Lower bounds of the squared distances of four points to the faces of a node.
+HOOKE_INLINE void distances_to_node(const AabbTree& tree, size_t node, const LaneVec& x, Lanes& squared) {
+  distances_to(tree.boxes()[node], x, squared);
+  if (!tree.slabs().empty()) raise_to_distances_to(tree.slabs()[node], x, squared);
+}
+
 }  // namespace
 
 /// Query points in lanes, with the nearest face found so far.
@@ -262,7 +282,6 @@ HOOKE_SIMD void test_all(const Candidates& candidates, Packet& packet) {
 
 /// One traversal for four points: descends wherever one of them may get closer, into the closer child first.
 HOOKE_SIMD void traverse(const AabbTree& tree, Packet& packet) {
-  const Box* const boxes = tree.boxes().data();
   LaneVec x;
   Lanes best, near, far;
   LaneMask indices;
@@ -274,7 +293,7 @@ HOOKE_SIMD void traverse(const AabbTree& tree, Packet& packet) {
   stack[size++] = 1;
   while (size > 0) {
     const size_t i = stack[--size];
-    distances_to(boxes[i], x, near);
+    distances_to_node(tree, i, x, near);
     if (!any(near * safety_factor <= best)) continue;
     if (tree.is_leaf(i)) {
       const size_t leaf = i - tree.leaf_count();
@@ -283,8 +302,8 @@ HOOKE_SIMD void traverse(const AabbTree& tree, Packet& packet) {
       continue;
     }
     const size_t left = 2 * i, right = left + 1;
-    distances_to(boxes[left], x, near);
-    distances_to(boxes[right], x, far);
+    distances_to_node(tree, left, x, near);
+    distances_to_node(tree, right, x, far);
     const bool left_first = sum_of(near) <= sum_of(far);
     const bool wants_left = any(near * safety_factor <= best), wants_right = any(far * safety_factor <= best);
     if (left_first && wants_right) stack[size++] = right;
@@ -311,7 +330,7 @@ bool NearestFaceSearch::test_candidates(double beyond, double within, Packet& pa
     return box.squaredExteriorDistance(packet.box) * safety_factor;
   };
   tree_.for_each_leaf(
-      0, [&](const Box& box) { return !candidates.too_many && distance_to(box) <= within; },
+      0, [&](size_t node) { return !candidates.too_many && distance_to(tree_.boxes()[node]) <= within; },
       [&](size_t leaf) {
         for (size_t index = tree_.first_face(leaf); index < tree_.first_face(leaf + 1); ++index) {
           const Face& face = tree_.faces()[index];
@@ -340,7 +359,7 @@ void NearestFaceSearch::find(std::span<const Vec3> points, std::span<NearestFace
   Packet packet(points);
   if (packet.groups == 1) {
     traverse(tree_, packet);
-  } else if (!find_together(packet)) {
+  } else if (!tree_.slabs().empty() || !find_together(packet)) {  // too many boxes overlap that of the packet
     const size_t half = packet.groups / 2 * lane_count;
     find(points.first(half), results.first(half));
     return find(points.subspan(half), results.subspan(half));
