@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "hooke/core/parallel.h"
+#include "support/crease_solids.h"
 #include "support/solids.h"
 
 namespace hooke::self_intersection_test {
@@ -130,6 +131,27 @@ TEST(SelfIntersection, CleanMeshesHaveNone) {
   EXPECT_EQ(count(test::grid(20, test::flat, .3)), 0u);
   EXPECT_EQ(count(test::moved(test::grid(20, test::flat, .2))), 0u);  // nearly in one plane, after rounding
   EXPECT_EQ(count(test::both(test::cube(), test::moved(test::cube(), 9))), 0u);
+}
+
+/// All pairs of faces, each by itself.
+Pairs pair_by_pair(const test::Triangles& t) {
+  Pairs pairs;
+  for (int f = 0; f < static_cast<int>(t.faces.size()); ++f)
+    for (int g = f + 1; g < static_cast<int>(t.faces.size()); ++g)
+      if (!find_self_intersections(t.points, {t.faces[f], t.faces[g]}).empty()) pairs.push_back({f, g});
+  return pairs;
+}
+
+TEST(SelfIntersection, NeedlesOfCapsAndFansAreNoExceptions) {
+  const test::Triangles drum = test::drum(100, .5), cone = test::pyramid(120, 1, .5),
+                        disc = test::pyramid(120, 1, 0);  // its two sides lie on each other
+  EXPECT_EQ(count(drum), 0u);
+  EXPECT_EQ(count(cone), 0u);
+  EXPECT_EQ(count(test::moved(drum)), 0u);
+  EXPECT_EQ(count(test::moved(cone)), 0u);
+  for (const test::Triangles& t : {drum, cone, disc})
+    for (const test::Triangles& tried : {t, test::shaken(t, .003), test::moved(test::shaken(t, .01))})
+      EXPECT_EQ(find_self_intersections(tried.points, tried.faces), pair_by_pair(tried));
 }
 
 TEST(SelfIntersection, DuplicateGeometryMeetsItself) {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <limits>
+#include <span>
+#include <utility>
 
 #include "hooke/core/parallel.h"
 #include "hooke/geometry/predicates.h"
@@ -20,7 +22,7 @@ Vec2 drop_axis(const Vec3& p, int axis) {
 int flattening_axis(const Corners& t) {
   const Vec3 n = (t[1] - t[0]).cross(t[2] - t[0]).cwiseAbs();
   std::array<int, 3> axes = {0, 1, 2};
-  std::stable_sort(axes.begin(), axes.end(), [&](int i, int j) { return n[i] > n[j]; });
+  std::ranges::sort(axes, {}, [&](int i) { return std::pair(-n[i], i); });
   for (int axis : axes)  // the order of the axes is subject to rounding
     if (orient2d(drop_axis(t[0], axis), drop_axis(t[1], axis), drop_axis(t[2], axis)) != 0) return axis;
   return axes[0];
@@ -75,10 +77,8 @@ double size_of(const Vec3& v) {
   return v.lpNorm<1>();
 }
 
-/// Whether a plane between the centres certainly separates the triangles. It does for most candidate pairs,
-/// whose boxes overlap only because they are close.
-bool surely_apart(const Corners& s, const Corners& t) {
-  const Vec3 across = (t[0] - s[0]) + (t[1] - s[1]) + (t[2] - s[2]);
+/// Whether a plane across the direction certainly separates the triangles, with t on its outer side.
+bool surely_separates(const Vec3& across, const Corners& s, const Corners& t) {
   double last_of_s = 0, first_of_t = std::numeric_limits<double>::infinity(), farthest = 0;
   for (size_t k = 0; k < 3; ++k) {
     const Vec3 to_s = s[k] - s[0], to_t = t[k] - s[0];
@@ -89,15 +89,40 @@ bool surely_apart(const Corners& s, const Corners& t) {
   return first_of_t - last_of_s > rounding_bound * farthest * size_of(across) + underflow_bound;
 }
 
-/// surely_apart() for two triangles that share their corner 0, with the plane through that corner.
+/// Whether the second triangle certainly lies beyond an edge of the first. It does for needles side by side
+/// in a plane, of which a concave cap may have thousands.
+bool surely_beyond_an_edge(const Corners& s, const Corners& t) {
+  const Vec3 normal = (s[1] - s[0]).cross(s[2] - s[0]);
+  for (size_t k = 0; k < 3; ++k)
+    if (surely_separates((s[(k + 1) % 3] - s[k]).cross(normal), s, t)) return true;
+  return false;
+}
+
+/// Whether a plane certainly separates the triangles: one between the centres, which does for most candidate
+/// pairs, whose boxes overlap only because they are close, or one along an edge.
+bool surely_apart(const Corners& s, const Corners& t) {
+  return surely_separates((t[0] - s[0]) + (t[1] - s[1]) + (t[2] - s[2]), s, t) ||
+         surely_beyond_an_edge(s, t) || surely_beyond_an_edge(t, s);
+}
+
+/// surely_apart() for two triangles that share their corner 0, with a plane through that corner: between
+/// their middles, or between the edges that are closest.
 bool surely_apart_but_for_corner(const Corners& s, const Corners& t) {
-  const Vec3 s1 = s[1] - s[0], s2 = s[2] - s[0], t1 = t[1] - t[0], t2 = t[2] - t[0];
-  const Vec3 across = (t1 + t2).normalized() - (s1 + s2).normalized();
-  const double last_of_s = std::max(across.dot(s1), across.dot(s2));
-  const double first_of_t = std::min(across.dot(t1), across.dot(t2));
-  const double farthest = std::max({size_of(s1), size_of(s2), size_of(t1), size_of(t2)});
-  const double margin = rounding_bound * farthest * size_of(across) + underflow_bound;
-  return last_of_s < -margin && first_of_t > margin;
+  const std::array<Vec3, 2> of_s = {s[1] - s[0], s[2] - s[0]}, of_t = {t[1] - t[0], t[2] - t[0]};
+  const double farthest = std::max({size_of(of_s[0]), size_of(of_s[1]), size_of(of_t[0]), size_of(of_t[1])});
+  const auto separates = [&](const Vec3& across) {
+    const double last_of_s = std::max(across.dot(of_s[0]), across.dot(of_s[1]));
+    const double first_of_t = std::min(across.dot(of_t[0]), across.dot(of_t[1]));
+    const double margin = rounding_bound * farthest * size_of(across) + underflow_bound;
+    return last_of_s < -margin && first_of_t > margin;
+  };
+  if (separates((of_t[0] + of_t[1]).normalized() - (of_s[0] + of_s[1]).normalized())) return true;
+  Vec3 shortest = Vec3::Constant(2);
+  for (const Vec3& a : of_s)
+    for (const Vec3& b : of_t)
+      if (const Vec3 across = b.normalized() - a.normalized(); across.squaredNorm() < shortest.squaredNorm())
+        shortest = across;
+  return separates(shortest);
 }
 
 /// Whether two triangles that share their corner 0 share any further point. If they do, the ray from the
@@ -143,6 +168,54 @@ bool faces_meet(const Face& s, const Face& t) {
   if (common == 3) return false;
   const size_t tip_s = 3 - in_s[0] - in_s[1], tip_t = 3 - in_t[0] - in_t[1];
   return is_folded_flat(corners_from(s, (tip_s + 1) % 3), t.corners[tip_t]);
+}
+
+/// The vertex that the faces of both groups share, or -1.
+int shared_by_all(std::span<const Face> s, std::span<const Face> t) {
+  for (int v : s[0].vertices) {
+    const auto has_it = [v](const Face& face) {
+      return std::ranges::find(face.vertices, v) != face.vertices.end();
+    };
+    if (std::ranges::all_of(t, has_it) && std::ranges::all_of(s, has_it)) return v;
+  }
+  return -1;
+}
+
+/// Calls visit(corner - origin) for the corners of the faces other than the vertex.
+template <typename Visit>
+void for_each_corner_but(int vertex, const Vec3& origin, std::span<const Face> faces, const Visit& visit) {
+  for (const Face& face : faces)
+    for (size_t k = 0; k < 3; ++k)
+      if (face.vertices[k] != vertex) visit(face.corners[k] - origin);
+}
+
+/// surely_apart_but_for_corner() for two sectors of the fan around a vertex, each with its faces in about the
+/// order of the fan.
+bool sectors_surely_apart(int hub, std::span<const Face> s, std::span<const Face> t) {
+  const Vec3 origin = s[0].corners[std::ranges::find(s[0].vertices, hub) - s[0].vertices.begin()];
+  const auto middle_of = [&](std::span<const Face> faces) {
+    Vec3 sum = Vec3::Zero();
+    for (const auto& end : {faces.first(1), faces.last(1)})
+      for_each_corner_but(hub, origin, end, [&](const Vec3& d) { sum += d.normalized(); });
+    return sum.normalized();
+  };
+  const Vec3 across = middle_of(t) - middle_of(s);
+  bool apart = true;
+  const auto check = [&](std::span<const Face> faces, const Vec3& inward) {
+    for_each_corner_but(hub, origin, faces, [&](const Vec3& d) {
+      const double margin = rounding_bound * size_of(d) * size_of(across) + underflow_bound;
+      apart = apart && inward.dot(d) > margin;
+    });
+  };
+  check(t, across);
+  check(s, -across);
+  return apart;
+}
+
+/// Whether no face of one group certainly meets one of the other beyond a vertex that all share.
+bool groups_surely_apart(std::span<const Face> s, std::span<const Face> t) {
+  const int hub = shared_by_all(s, t);
+  return hub >= 0 && sectors_surely_apart(hub, s, t);
 }
 
 }  // namespace
@@ -226,7 +299,7 @@ std::vector<std::array<int, 2>> find_self_intersections(const AabbTree& tree) {
 
   std::vector<std::vector<std::array<int, 2>>> found(tree.parts() / parts_per_task + 1);
   parallel_for(tree.parts(), parts_per_task, [&](size_t begin, size_t end) {
-    tree.for_each_overlapping_pair(begin, end, [&](const Face& f, const Face& g) {
+    tree.for_each_overlapping_pair(begin, end, groups_surely_apart, [&](const Face& f, const Face& g) {
       const auto [low, high] = std::minmax(f.id, g.id);
       if (!has_area[low] || !has_area[high]) return;
       if (f.id < g.id ? faces_meet(f, g) : faces_meet(g, f))
