@@ -9,6 +9,7 @@
 #include "hooke/io/vertex_lists.h"
 #include "hooke/mesh/adjacency.h"
 #include "support/meshes.h"
+#include "support/solids.h"
 
 namespace hooke::surface_point_test {
 
@@ -49,6 +50,29 @@ TEST(SurfacePoint, WalksAroundTheHubOfAFan) {
         y += found.weights[static_cast<Eigen::Index>(k)] * points.col(faces[found.face][k]);
       EXPECT_NEAR((x - y).squaredNorm(), tree.closest(x).squared_distance, 1e-9) << radius << ' ' << turn;
     }
+}
+
+TEST(SurfacePoint, IsFoundFromTheHubOfAPleatedFan) {
+  constexpr int corners = 2000;
+  test::Triangles t{Mat3X::Zero(3, corners + 1), {}};
+  for (int k = 0; k < corners; ++k) {
+    const double angle = 2 * std::numbers::pi * k / corners;
+    t.points.col(k + 1) = Vec3(std::cos(angle), std::sin(angle), k % 2 == 0 ? .01 : -.01);
+    t.faces.push_back({0, k + 1, (k + 1) % corners + 1});
+  }
+  for (const test::Triangles& fan : {t, test::shuffled(t)}) {
+    const Adjacency c = test::connect(fan);
+    const AabbTree tree(fan.points, fan.faces);
+    int hub = 0;
+    for (int v = 0; v < c.vertex_count; ++v)
+      if (c.vertex_faces[v].size() == corners) hub = v;
+    for (int k = 0; k < 200; ++k) {
+      const double angle = .1 * k, radius = .2 + .003 * k;
+      const Vec3 x(radius * std::cos(angle), radius * std::sin(angle), .002 * (k % 5));
+      const ClosestPoint found = closest_point_nearby(fan.points, c, x, hub);
+      EXPECT_NEAR(std::sqrt(found.squared_distance), std::sqrt(tree.closest(x).squared_distance), 1e-3) << k;
+    }
+  }
 }
 
 TEST(SurfacePoint, AVertexWithoutFacesLiesOnNone) {

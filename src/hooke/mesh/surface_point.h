@@ -24,8 +24,9 @@ SurfacePoint on_face(const ClosestPoint& point, const Mat3X& points, const Adjac
 int nearest_corner(const SurfacePoint& place, const Adjacency& adjacency);
 
 /// The closest point to x on the faces at `hint`, a vertex nearby, and at its neighbours but hubs of very
-/// many faces; the search moves on to the nearest corner while that gets closer to x. The point `known` if
-/// none is closer than that; without, face -1 if none is there, or x is not finite.
+/// many faces; the search moves on to the nearest corner while that gets closer to x. From such a hub it
+/// finds its way to faces nearby, not necessarily the closest. The point `known` if none is closer than that;
+/// without, face -1 if none is there, or x is not finite.
 ClosestPoint closest_point_nearby(const Mat3X& points, const Adjacency& adjacency, const Vec3& x, int hint,
                                   const ClosestPoint& known = {});
 
