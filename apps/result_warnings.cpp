@@ -120,16 +120,23 @@ void warn_of_bends(RunRecord& run) {
 
 /// Warns if walls or gaps are not as thick as they were, unless it is at so few places that it hardly
 /// matters.
-void warn_of_walls(RunRecord& run) {
+void warn_of_walls(const Settings& s, RunRecord& run) {
   constexpr double few = .001, at_least = 4;  // of the faces of the input
+  constexpr double in_reach = 2e-4;           // of the diagonal: smaller distances can hardly be kept
   const RemeshResult& result = *run.result;
   if (result.left_walls <= std::max(at_least, few * run.before.topology.faces)) return;
+  const double distance = .1 * result.thickness;
+  const auto remedy = [&]() -> std::string {
+    if (s.remesh.connectivity != ConnectivityMode::adapt) return "--filter closest or --connectivity adapt";
+    const bool may_ask = distance >= in_reach * run.deviation->diagonal;
+    return (may_ask ? fmt::format("--max-distance {:.2g}, ", distance) : "") +
+           "--sizing curvature or a smaller --length";
+  };
   run.warnings.push_back(
-      {"thin_walls",
-       fmt::format("{}: walls or gaps are not as thick as in {}: where one is {:.3g}, near {:.6g}, a side "
-                   "is {:.3g} off; --max-distance {:.2g}, --sizing curvature or a smaller --length keep them",
-                   run.output->path, run.input.path, result.thickness, fmt::join(result.thin_place, " "),
-                   result.lost_thickness, .1 * result.thickness)});
+      {"thin_walls", fmt::format("{}: walls or gaps are not as thick as in {}: where one is {:.3g}, near "
+                                 "{:.6g}, a side is {:.3g} off; {} keeps them better",
+                                 run.output->path, run.input.path, result.thickness,
+                                 fmt::join(result.thin_place, " "), result.lost_thickness, remedy())});
 }
 
 void warn_of_count(RunRecord& run) {
@@ -520,7 +527,7 @@ void add_result_warnings(const Settings& s, const TriMesh& mesh, RunRecord& run)
   warn_of_time(s, run);
   warn_of_distance(s, run);
   warn_of_bends(run);
-  warn_of_walls(run);
+  warn_of_walls(s, run);
   warn_of_crossings(run);
   warn_of_folds(run);
   run.warnings.insert(run.warnings.end(), earlier.begin(), earlier.end());
