@@ -61,20 +61,6 @@ TEST(NearFaces, NoFaceAboutTheAnchorIsCloser) {
   }
 }
 
-TEST(NearFaces, TheWalkFromAHubEndsAtTheNearestVertex) {
-  constexpr int sides = 2000;
-  const auto t = test::pyramid(sides, 1, .3);
-  const Adjacency c = test::connect(t);
-  const Mat3X normals = vertex_normals(t.points, c);
-  const NearFaces faces{t.points, normals, c};
-  for (int k = 0; k < 100; ++k) {
-    const double angle = .1 * k, radius = k % 2 == 0 ? .2 : .8;
-    const Vec3 x(radius * std::cos(angle), radius * std::sin(angle), .3 * (1 - radius));
-    const double found = (t.points.col(faces.nearest_vertex(x, sides)) - x).norm();
-    EXPECT_NEAR(found, (t.points.leftCols(sides + 1).colwise() - x).colwise().norm().minCoeff(), 1e-12);
-  }
-}
-
 TEST(NearFaces, AFaceWithinADistanceIsNoFartherThanTheClosestOne) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> coordinate(-1.5, 1.5);

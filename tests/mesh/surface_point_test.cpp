@@ -2,12 +2,15 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <random>
 
 #include "hooke/geometry/aabb_tree.h"
 #include "hooke/io/vertex_lists.h"
 #include "hooke/mesh/adjacency.h"
+#include "hooke/mesh/memory_order.h"
 #include "support/meshes.h"
 #include "support/solids.h"
 
@@ -50,6 +53,50 @@ TEST(SurfacePoint, WalksAroundTheHubOfAFan) {
         y += found.weights[static_cast<Eigen::Index>(k)] * points.col(faces[found.face][k]);
       EXPECT_NEAR((x - y).squaredNorm(), tree.closest(x).squared_distance, 1e-9) << radius << ' ' << turn;
     }
+}
+
+/// The greatest distance, beyond that of the closest face, of what is found from the hub of a fan for points
+/// close to its faces. The rim is given by the angle.
+template <typename Rim>
+double farthest_from_hub(int corners, const Rim& rim) {
+  test::Triangles t{Mat3X::Zero(3, corners + 1), {}};
+  for (int k = 0; k < corners; ++k) {
+    t.points.col(k + 1) = rim(2 * std::numbers::pi * k / corners);
+    t.faces.push_back({0, k + 1, (k + 1) % corners + 1});
+  }
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> share(0, 1);
+  double farthest = 0;
+  for (unsigned seed = 1; seed <= 8; ++seed) {
+    test::Triangles fan = test::shuffled(t, seed);
+    std::ranges::shuffle(fan.faces, random);
+    const Permutation order = reorder(fan.faces, bfs_cluster_order(corners + 1, fan.faces));
+    const Mat3X points = order.gather(fan.points);
+    const Adjacency c = make_adjacency(corners + 1, order.faces);
+    const AabbTree tree(points, c.faces);
+    int hub = 0;
+    for (int v = 0; v < c.vertex_count; ++v)
+      if (std::ssize(c.vertex_faces[v]) == corners) hub = v;
+    for (const Triangle& face : c.faces) {
+      const double outwards = std::sqrt(share(random)), sideways = share(random);
+      const Vec3 far_end = points.col(face[1]) + sideways * (points.col(face[2]) - points.col(face[1]));
+      const Vec3 x = points.col(face[0]) + outwards * (far_end - points.col(face[0])) + Vec3(0, 0, .001);
+      const double found = std::sqrt(closest_point_nearby(points, c, x, hub).squared_distance);
+      farthest = std::max(farthest, found - std::sqrt(tree.closest(x).squared_distance));
+    }
+  }
+  return farthest;
+}
+
+TEST(SurfacePoint, IsFoundFromTheHubOfAFan) {
+  for (const int corners : {65, 100, 500}) {
+    const auto flat = [](double angle) { return Vec3(2 * std::cos(angle), .15 * std::sin(angle), 0); };
+    const auto off_centre = [&](double angle) { return Vec3(flat(angle) + Vec3(1.8, 0, 0)); };
+    const auto cone = [](double angle) { return Vec3(.2 * std::cos(angle), .2 * std::sin(angle), 1); };
+    EXPECT_NEAR(farthest_from_hub(corners, flat), 0, 1e-9) << corners;
+    EXPECT_NEAR(farthest_from_hub(corners, off_centre), 0, 1e-9) << corners;
+    EXPECT_NEAR(farthest_from_hub(corners, cone), 0, 1e-9) << corners;
+  }
 }
 
 TEST(SurfacePoint, IsFoundFromTheHubOfAPleatedFan) {

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <span>
 #include <vector>
 
 #include "hooke/core/error.h"
@@ -17,23 +16,11 @@
 
 namespace hooke {
 
-namespace {
-
-/// Of the neighbours of a hub with more only some are tried, evenly spread: the walk goes on along its rim.
-constexpr std::size_t max_tried_neighbours = 64;
-
-}  // namespace
-
 int NearFaces::nearest_vertex(const Vec3& x, int vertex) const {
   double smallest = (points.col(vertex) - x).squaredNorm();
   for (int from = -1; from != vertex;) {
     from = vertex;
-    const std::span<const int> neighbours = adjacency.vertex_neighbours[from];
-    const std::size_t count = neighbours.size();
-    const std::size_t stride =
-        count <= max_tried_neighbours ? 1 : static_cast<std::size_t>(std::sqrt(static_cast<double>(count)));
-    for (std::size_t k = 0; k < count; k += stride) {
-      const int n = neighbours[k];
+    for (const int n : adjacency.vertex_neighbours[from]) {
       const double distance2 = (points.col(n) - x).squaredNorm();
       if (!(distance2 < smallest)) continue;  // ends the walk for NaN too
       smallest = distance2;

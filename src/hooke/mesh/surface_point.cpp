@@ -41,14 +41,19 @@ int next_face_around(const Adjacency& adjacency, int vertex, int face, bool forw
   return left == face ? right : left;
 }
 
-/// The closest point on the faces around a hub: of some of them, and of those next to these as long as they
-/// get closer within a few steps.
+/// The closest point on the faces around a hub: of some of them, and of those next
+/// to the closest of these as long as they get closer within a few steps. All of them if the hub itself is
+/// the closest of some, as from there no way leads closer.
 ClosestPoint closest_at_hub(const Mat3X& points, const Adjacency& adjacency, const Vec3& x, int hub) {
   const std::span<const int> faces = adjacency.vertex_faces[hub];
   const auto stride = static_cast<std::size_t>(std::sqrt(static_cast<double>(faces.size())));
   ClosestPoint closest;
   for (std::size_t k = 0; k < faces.size(); k += stride)
     update_by_face(points, adjacency, x, faces[k], closest);
+  if (!(closest.squared_distance < (points.col(hub) - x).squaredNorm())) {
+    for (const int f : faces) update_by_face(points, adjacency, x, f, closest);
+    return closest;
+  }
   for (const bool forward : {false, true}) {
     int f = closest.face;
     for (std::size_t steps = 0; f >= 0 && steps < 2 * stride; ++steps) {
