@@ -182,16 +182,22 @@ void warn_of_moved_values(const Settings& s, const LoadedMesh& loaded, const Ori
   constexpr double clearly = .01, visibly = .0025;  // root mean square, of the range; of textures
   const Permutation& order = loaded.memory_order.order;
   const Adjacency& c = *original.memory_order.adjacency;
+  const bool has_corners = !loaded.corner_data.texture.empty() && s.format == MeshFormat::obj;
+  const ChannelList of_vertices = texture_of(loaded.vertex_data);
   VertexData values;
-  for (const VertexChannel& channel : loaded.vertex_data)
-    if (VertexChannel here{channel.name, channel.type, order.gather(channel.values)};
-        is_of_places(here, c.faces))
-      values.push_back(std::move(here));
-  if (!loaded.corner_data.texture.empty() && s.format == MeshFormat::obj)
+  std::vector<char> is_texture;
+  for (const VertexChannel& channel : loaded.vertex_data) {
+    const bool is_of_texture = std::ranges::find(of_vertices, &channel) != of_vertices.end();
+    if (is_of_texture && (has_corners || s.reproject_uv)) continue;
+    VertexChannel here{channel.name, channel.type, order.gather(channel.values)};
+    if (!is_of_places(here, c.faces)) continue;
+    values.push_back(std::move(here));
+    is_texture.push_back(is_of_texture);
+  }
+  if (has_corners && !s.reproject_uv)
     std::ranges::move(texture_of_vertices(loaded.corner_data.texture, original.memory_order),
                       std::back_inserter(values));
-  if (s.reproject_uv)
-    std::erase_if(values, [](const VertexChannel& channel) { return is_named(channel, texture_names); });
+  is_texture.resize(values.size(), 1);
   if (values.empty()) return;
   const Mat3X after = order.gather(vertex_points(loaded.mesh));
   std::vector<MapEntry> map(c.vertex_count);
@@ -202,12 +208,11 @@ void warn_of_moved_values(const Settings& s, const LoadedMesh& loaded, const Ori
   std::vector<std::string> moved;
   bool moves_texture = false;
   for (std::size_t k = 0; k < values.size(); ++k) {
-    const bool is_texture = is_named(values[k], texture_names);
     const double share = difference(values[k], there[k], c);
-    if (share <= (is_texture ? visibly : clearly)) continue;
-    moves_texture |= is_texture;
-    moved.push_back(fmt::format("{}{} by {:.2g} %", is_texture ? "texture coordinate " : "", values[k].name,
-                                100 * share));
+    if (share <= (is_texture[k] ? visibly : clearly)) continue;
+    moves_texture |= is_texture[k] != 0;
+    moved.push_back(fmt::format("{}{} by {:.2g} %", is_texture[k] ? "texture coordinate " : "",
+                                values[k].name, 100 * share));
   }
   if (!moved.empty())
     record.warnings.push_back(
@@ -216,7 +221,8 @@ void warn_of_moved_values(const Settings& s, const LoadedMesh& loaded, const Ori
              "{}: values of vertices went along with these, and differ from those at their new places: {} "
              "of the range (rms); {}--connectivity flip and adapt take the values of the places",
              record.input.path, fmt::join(moved, ", "),
-             moves_texture && s.format == MeshFormat::obj && s.preserve
+             moves_texture && s.format == MeshFormat::obj && s.preserve &&
+                     obstacle_to_preserving(s, loaded).empty()
                  ? "--reproject-uv on lets texture coordinates follow, "
                  : "")});
 }

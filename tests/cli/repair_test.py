@@ -35,6 +35,13 @@ def is_oriented_manifold(faces):
     return True
 
 
+def rows_of_ply(path):
+    """The numbers of each vertex of an ASCII PLY file."""
+    head, _, body = path.read_text().partition("end_header\n")
+    count = next(int(line.split()[2]) for line in head.splitlines() if line.startswith("element vertex"))
+    return [tuple(map(float, line.split())) for line in body.splitlines()[:count]]
+
+
 class Repair(CommandTest):
     def setUp(self):
         super().setUp()
@@ -207,38 +214,66 @@ class Repair(CommandTest):
         rows = (self.folder / "out.msh").read_text().splitlines()
         self.assertEqual([row.split()[3] for row in rows if len(row.split()) == 8], ["5", "8"])
 
-    def test_a_texture_that_was_cut_open_stays_cut(self):
+    def write_cut(self, names, values_of):
+        """Two squares side by side that touch; values_of(x, y, side) of their vertices. Returns vertices and faces."""
         n = 6
         grid = [(i / n, j / n) for j in range(n + 1) for i in range(n + 1)]
         quads = [j * (n + 1) + i for j in range(n) for i in range(n)]
         faces = [f for q in quads for f in ((q, q + 1, q + n + 2), (q, q + n + 2, q + n + 1))]
-        rows = [(x + right, y, 0, x + 2 * right, y, right) for right in (0, 1) for x, y in grid]
         faces += [tuple(v + len(grid) for v in f) for f in faces]
-        names = ("x", "y", "z", "s", "t", "heat")
-        lines = ["ply", "format ascii 1.0", "element vertex %d" % len(rows), *("property double " + n for n in names),
+        vertices = [(x + side, y, 0) for side in (0, 1) for x, y in grid]
+        values = [values_of(x, y, side) for side in (0, 1) for x, y in grid]
+        lines = ["ply", "format ascii 1.0", "element vertex %d" % len(vertices),
+                 *("property double " + name for name in ("x", "y", "z", *names)),
                  "element face %d" % len(faces), "property list uchar int vertex_indices", "end_header"]
-        lines += ["%r %r %r %r %r %r" % row for row in rows] + ["3 %d %d %d" % f for f in faces]
+        lines += [" ".join("%r" % number for number in (*v, *of)) for v, of in zip(vertices, values)] + ["3 %d %d %d" % f for f in faces]
         self.write("cut.ply", "\n".join(lines) + "\n")
-        for mode in ("fixed", "adapt"):
-            report = self.report("cut.ply", "-o", "out.obj", "--repair", "--connectivity", mode, "-L", ".8x", *QUIET)
-            told = {w["code"]: w["message"] for w in report["warnings"]}
-            self.assertRegex(told["merged_values"], r"cut\.ply: 7 vertices had other values .*: heat$")
-            self.assertNotIn("texture_seams", told)
-            of = {"v": [], "vt": [], "f": []}
-            for line in (self.folder / "out.obj").read_text().splitlines():
-                word, *rest = line.split()
-                if word in of:
-                    of[word].append(rest)
-            self.assertEqual({row[0] for row in of["vt"]} >= {"1", "2"}, True)
-            for face in of["f"]:
-                corners = [tuple(int(k) - 1 for k in corner.split("/")[:2]) for corner in face]
-                if mode == "adapt":
-                    shifts = {round(float(of["vt"][t][0]) - float(of["v"][v][0]), 9) for v, t in corners}
-                    self.assertEqual(len(shifts), 1, face)
-                    self.assertTrue(shifts <= {0, 1}, shifts)
-        report = self.report("cut.ply", "-o", "out.ply", "--repair", *QUIET)
-        told = {w["code"]: w["message"] for w in report["warnings"]}
-        self.assertRegex(told["texture_seams"], "differ at 7 of the vertices that were merged; OBJ holds them")
+        return values, faces
+
+    def warnings_of(self, *arguments):
+        return {w["code"]: w["message"] for w in self.report(*arguments, "--repair", *QUIET)["warnings"]}
+
+    def test_a_texture_that_was_cut_open_stays_cut(self):
+        for names in (("s", "t", "heat"), ("texture_u", "texture_v", "heat")):
+            values, faces = self.write_cut(names, lambda x, y, side: (x + 2 * side, y, side))
+            for mode in ("fixed", "adapt"):
+                told = self.warnings_of("cut.ply", "-o", "out.obj", "--connectivity", mode, "-L", ".8x")
+                self.assertRegex(told["merged_values"], r"cut\.ply: 7 vertices had other values .*: heat$")
+                self.assertNotIn("texture_seams", told)
+                of = {"v": [], "vt": [], "f": []}
+                for line in (self.folder / "out.obj").read_text().splitlines():
+                    word, *rest = line.split()
+                    if word in of:
+                        of[word].append(rest)
+                self.assertEqual({row[0] for row in of["vt"]} >= {"1", "2"}, True)
+                for f, face in enumerate(of["f"]):
+                    corners = [tuple(int(k) - 1 for k in corner.split("/")[:2]) for corner in face]
+                    if mode == "adapt":
+                        shifts = {round(float(of["vt"][t][0]) - float(of["v"][v][0]), 9) for v, t in corners}
+                        self.assertEqual(len(shifts), 1, face)
+                        self.assertTrue(shifts <= {0, 1}, shifts)
+                    else:
+                        self.assertEqual([tuple(map(float, of["vt"][t])) for _, t in corners], [values[v][:2] for v in faces[f]])
+            told = self.warnings_of("cut.ply", "-o", "out.ply")
+            self.assertRegex(told["texture_seams"], "texture coordinates of 7 vertices that were merged .*; OBJ holds both")
+            kept = rows_of_ply(self.folder / "out.ply")
+            self.assertEqual([row[3:5] for row in kept], [v[:2] for n, v in enumerate(values) if n < 49 or v[0] > 2])
+
+    def test_values_that_are_equal_are_no_others(self):
+        nan = float("nan")
+        for names, values_of, lost in (
+                (("heat",), lambda x, y, side: (nan if y < .6 else x + side,), False),
+                (("heat",), lambda x, y, side: (.1 * (x + side) + side * 1e-17,), False),
+                (("id",), lambda x, y, side: (1e6 + (x < 1) * side,), True),
+                (("s", "t"), lambda x, y, side: ((x + side) * (1 + side * 1e-9), y), False),
+                (("t",), lambda x, y, side: (x + 2 * side,), True)):
+            self.write_cut(names, values_of)
+            for output in ("out.ply", "out.obj"):
+                told = self.warnings_of("cut.ply", "-o", output)
+                self.assertEqual("merged_values" in told, lost, names)
+                self.assertNotIn("texture_seams", told)
+            self.assertNotIn("vt", (self.folder / "out.obj").read_text() if "s" not in names else "")
+            self.assertEqual({len(row) for row in rows_of_ply(self.folder / "out.ply")}, {3 + len(names)})
 
     def test_a_mesh_that_is_inside_out_is_named(self):
         inside_out = TETRAHEDRON.replace("f 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4", "f 1 2 3\nf 1 4 2\nf 2 4 3\nf 3 4 1")

@@ -140,11 +140,11 @@ bool is_one_of(const std::string& name, ChannelNames names) {
   return std::ranges::find(names, name) != names.end();
 }
 
-/// Renames texture coordinates to the names s and t; PLY files also use texture_u and texture_v.
+/// Renames texture coordinates to the names s and t.
 VertexData with_common_names(VertexData data) {
-  constexpr std::array others = {"texture_u", "texture_v"};
-  if (has_all(data, others) && channels_named(data, texture_names).empty())
-    for (size_t k = 0; k < 2; ++k) find_channel(data, others[k])->name = texture_names[k];
+  const ChannelList texture = texture_of(data);
+  if (channels_named(data, texture_names).empty())
+    for (size_t k = 0; k < texture.size(); ++k) find_channel(data, texture[k]->name)->name = texture_names[k];
   return data;
 }
 

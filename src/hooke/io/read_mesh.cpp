@@ -4,7 +4,9 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
+#include <limits>
 #include <utility>
 
 #include "hooke/core/error.h"
@@ -63,24 +65,39 @@ CornerValues values_of_triangles(PolygonCorners& of_polygons, const char* what, 
   return result;
 }
 
-/// The old vertices that were merged with one of another value.
-std::size_t count_merged_with_others(const MeshOrigin& origin, const VertexChannel& channel) {
+/// The old vertices that were merged with one of another value, beyond the tolerance, a share of the range of
+/// all values. What is no number is equal.
+std::size_t count_merged_with_others(const MeshOrigin& origin, const VertexChannel& channel,
+                                     double tolerance) {
+  double least = std::numeric_limits<double>::infinity(), greatest = -least;
+  for (const double value : channel.values) {
+    if (!std::isfinite(value)) continue;
+    least = std::min(least, value);
+    greatest = std::max(greatest, value);
+  }
+  const auto are_equal = [&](double a, double b) {
+    return a == b || (std::isnan(a) && std::isnan(b)) || std::abs(a - b) <= tolerance * (greatest - least);
+  };
   std::size_t count = 0;
   for (std::size_t v = 0; v < origin.merged.size(); ++v)
-    count += channel.values[v] != channel.values[origin.merged[v]];
+    count += !are_equal(channel.values[v], channel.values[origin.merged[v]]);
   return count;
 }
 
 /// Where vertices were merged that have other texture coordinates, as at the seams of a file that cuts the
-/// mesh open there, these become values of the corners, of the triangles before the repair. Of other values
-/// the merged vertices keep those of the first, and a warning counts them.
+/// mesh open there, these become values of the corners too, of the triangles before the repair. As values of
+/// vertices they, like all others, are those of the first, and a warning counts what is lost.
 void keep_merged_values(const MeshOrigin& origin, const std::vector<Triangle>& triangles, MeshFile& file,
                         CornerData& corner_data, Warnings& warnings) {
+  constexpr double rounding = 1e-9, texture_rounding = 1e-6;
+  const ChannelList texture = texture_of(file.vertex_data);
   std::vector<std::string> lost;
   std::size_t most = 0, torn = 0;
   for (const VertexChannel& channel : file.vertex_data) {
-    const std::size_t count = count_merged_with_others(origin, channel);
-    if (std::ranges::find(texture_names, channel.name) != texture_names.end()) {
+    const bool is_texture = std::ranges::find(texture, &channel) != texture.end();
+    const std::size_t count =
+        count_merged_with_others(origin, channel, is_texture ? texture_rounding : rounding);
+    if (is_texture) {
       torn = std::max(torn, count);
     } else if (count > 0 && std::ranges::find(normal_names, channel.name) == normal_names.end()) {
       lost.push_back(channel.name);
@@ -94,20 +111,16 @@ void keep_merged_values(const MeshOrigin& origin, const std::vector<Triangle>& t
                      file.name, most, fmt::join(lost, ", "))});
   if (torn == 0) return;
   file.content.no_obj.push_back(
-      {"texture_seams", fmt::format("{}: not kept in the output: texture coordinates, which differ at {} of "
-                                    "the vertices that were merged; OBJ holds them",
-                                    file.name, torn)});
-  CornerValues& texture = corner_data.texture;
-  texture = {Mat3X::Zero(3, static_cast<Eigen::Index>(origin.merged.size())), 0, triangles};
-  for (const char* name : texture_names) {
-    const VertexChannel* channel = find_channel(file.vertex_data, name);
-    if (channel == nullptr) break;
-    texture.values.row(texture.width++) = Eigen::Map<const Eigen::RowVectorXd>(
+      {"texture_seams",
+       fmt::format(
+           "{}: not kept in the output: texture coordinates of {} vertices that were merged with ones "
+           "of others, which stay; OBJ holds both",
+           file.name, torn)});
+  CornerValues& of_corners = corner_data.texture;
+  of_corners = {Mat3X::Zero(3, static_cast<Eigen::Index>(origin.merged.size())), 0, triangles};
+  for (const VertexChannel* channel : texture)
+    of_corners.values.row(of_corners.width++) = Eigen::Map<const Eigen::RowVectorXd>(
         channel->values.data(), static_cast<Eigen::Index>(channel->values.size()));
-  }
-  std::erase_if(file.vertex_data, [](const VertexChannel& channel) {
-    return std::ranges::find(texture_names, channel.name) != texture_names.end();
-  });
 }
 
 /// Brings values of corners in the order of a repaired mesh; faces over holes have none.

@@ -1,6 +1,7 @@
 #include "hooke/mesh/attributes.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -89,6 +90,13 @@ VertexData interpolate(const VertexData& data, const std::vector<MapEntry>& map,
     });
   }
   return result;
+}
+
+ChannelList texture_of(const VertexData& data) {
+  constexpr std::array other_names = {"texture_u", "texture_v"};
+  for (const ChannelNames names : {ChannelNames(texture_names), ChannelNames(other_names)})
+    if (channels_named(data, names.first(2)).size() == 2) return channels_named(data, names);
+  return {};
 }
 
 bool has_normals(const VertexData& data) {

@@ -40,6 +40,10 @@ using ChannelNames = std::span<const char* const>;
 using ChannelList = std::vector<const VertexChannel*>;
 ChannelList channels_named(const VertexData& data, ChannelNames names);
 
+/// The texture coordinates: s and t, and p if that is there, or texture_u and texture_v, as some PLY files
+/// name them; none if only one is there.
+ChannelList texture_of(const VertexData& data);
+
 /// Interpolates all channels at the surface points of the map: linear in the faces, never beyond the values
 /// of their corners, integers rounded. Integers that are labels are those of the corner with the greatest
 /// weight: all but colours, and but those of one or two bytes that differ at most sides of faces. Vertices on
