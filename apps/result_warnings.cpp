@@ -43,7 +43,8 @@ void warn_of_time(const Settings& s, RunRecord& run) {
 
 void warn_of_folds(RunRecord& run) {
   std::vector<int> folded = folded_faces(run);
-  const bool is_unmoved = run.deviation->displacement && run.deviation->displacement->max == 0;
+  const bool is_unmoved = run.connectivity == ConnectivityMode::fixed && run.deviation->displacement &&
+                          run.deviation->displacement->max == 0;
   if (folded.empty() || is_unmoved) return;
   constexpr size_t max_listed = 10;
   const size_t count = folded.size();
@@ -104,18 +105,19 @@ void warn_of_distance(const Settings& s, RunRecord& run) {
 
 /// Warns if bends of the result are sharp where the input is smooth, unless so few of its edges are that it
 /// hardly matters.
-void warn_of_bends(RunRecord& run) {
+void warn_of_bends(const Settings& s, RunRecord& run) {
   constexpr double few = .0025, at_least = 4;  // of all edges
+  const bool is_sized = s.sizing.kind == SizingSource::Kind::curvature;
   const RemeshResult& result = *run.result;
   if (result.sharp_bends <= std::max(at_least, few * 1.5 * run.after->topology.faces)) return;
   run.warnings.push_back(
-      {"sharp_bends", fmt::format("{}: {} edges turn by more than 60 degrees, up to {:.0f} near {:.6g}, "
-                                  "where {} bends less: narrow or "
-                                  "sharply curved parts are coarser there; --sizing curvature, which makes "
-                                  "edges shorter there, or a "
-                                  "smaller --length follows them",
-                                  run.output->path, result.sharp_bends, result.sharpest_bend,
-                                  fmt::join(result.sharpest_place, " "), run.input.path)});
+      {"sharp_bends",
+       fmt::format("{}: {} edges turn by more than 60 degrees, up to {:.0f} near {:.6g}, where "
+                   "{} bends less: narrow or sharply curved parts are coarser there; {}a smaller "
+                   "--length follows them",
+                   run.output->path, result.sharp_bends, result.sharpest_bend,
+                   fmt::join(result.sharpest_place, " "), run.input.path,
+                   is_sized ? "" : "--sizing curvature, which makes edges shorter there, or ")});
 }
 
 /// Warns if walls or gaps are not as thick as they were, unless it is at so few places that it hardly
@@ -126,11 +128,21 @@ void warn_of_walls(const Settings& s, RunRecord& run) {
   const RemeshResult& result = *run.result;
   if (result.left_walls <= std::max(at_least, few * run.before.topology.faces)) return;
   const double distance = .1 * result.thickness;
-  const auto remedy = [&]() -> std::string {
-    if (s.remesh.connectivity != ConnectivityMode::adapt) return "--filter closest or --connectivity adapt";
-    const bool may_ask = distance >= in_reach * run.deviation->diagonal;
-    return (may_ask ? fmt::format("--max-distance {:.2g}, ", distance) : "") +
-           "--sizing curvature or a smaller --length";
+  const double allowed = s.preservation.max_distance.value_or(std::numeric_limits<double>::infinity());
+  const auto remedy = [&] {
+    std::vector<std::string> options;
+    if (s.remesh.connectivity == ConnectivityMode::adapt) {
+      if (distance < allowed && distance >= in_reach * run.deviation->diagonal)
+        options.push_back(fmt::format("--max-distance {:.2g}", distance));
+      if (s.sizing.kind != SizingSource::Kind::curvature) options.emplace_back("--sizing curvature");
+      options.emplace_back("a smaller --length");
+    } else {
+      if (s.remesh.filter.kind != FilterKind::closest) options.emplace_back("--filter closest");
+      options.emplace_back("--connectivity adapt");
+    }
+    const std::string last = options.back();
+    options.pop_back();
+    return options.empty() ? last : fmt::format("{} or {}", fmt::join(options, ", "), last);
   };
   run.warnings.push_back(
       {"thin_walls", fmt::format("{}: walls or gaps are not as thick as in {}: where one is {:.3g}, near "
@@ -526,7 +538,7 @@ void add_result_warnings(const Settings& s, const TriMesh& mesh, RunRecord& run)
   warn_of_promises(run);
   warn_of_time(s, run);
   warn_of_distance(s, run);
-  warn_of_bends(run);
+  warn_of_bends(s, run);
   warn_of_walls(s, run);
   warn_of_crossings(run);
   warn_of_folds(run);

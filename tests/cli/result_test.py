@@ -2,6 +2,7 @@
 
 import csv
 import math
+import random
 import unittest
 
 from command import DATA, CommandTest, irregular_torus, read_mesh, write_off
@@ -83,6 +84,45 @@ class Result(CommandTest):
             self.assertEqual(report["promises"]["shortened_vertices"] > 0, is_short)
             self.assertEqual("lengths_shortened" in codes, is_short, codes)
             self.assertNotIn("face_count_missed", codes)
+
+    def test_walls_that_are_lost_are_named_with_what_keeps_them(self):
+        sides, rows = 48, 6
+        profile = [(10.2, 2 * row) for row in range(rows + 1)] + [(10, 2 * row) for row in range(rows, -1, -1)]
+        n = len(profile)
+        points = [(r * math.cos(2 * math.pi * k / sides), r * math.sin(2 * math.pi * k / sides), z)
+                  for k in range(sides) for r, z in profile]
+        faces = [f for k in range(sides) for j in range(n)
+                 for a, b in ((k * n + j, k * n + (j + 1) % n),)
+                 for c, d in (((a + n) % len(points), (b + n) % len(points)),) for f in ((a, c, d), (a, d, b))]
+        write_off(self.folder / "pipe.off", points, faces)
+        wall = r"walls or gaps are not as thick as in pipe\.off: where one is 0\.2, near .*, a side is 0\.\d+ off; "
+        for length, options, advice in (
+                ("6", (), "--max-distance 0.02, --sizing curvature or a smaller --length"),
+                ("6", ("--sizing", "curvature"), "--max-distance 0.02 or a smaller --length"),
+                ("6", ("--max-distance", ".5"), "--max-distance 0.02, --sizing curvature or a smaller --length"),
+                ("6", ("--max-distance", ".02"), None),
+                ("1.3", (), None)):
+            with self.subTest(length=length, options=options):
+                report = self.report("pipe.off", "-o", "out.off", "--connectivity", "adapt", "-L", length, *options)
+                told = [w["message"] for w in report["warnings"] if w["code"] == "thin_walls"]
+                self.assertEqual(len(told), advice is not None, told)
+                if advice:
+                    self.assertRegex(told[0], wall + advice + " keeps them better$")
+
+    def test_flips_that_turn_faces_over_are_named_though_no_vertex_moves(self):
+        # A sheet that lies on itself, a little above: its lower half and its upper half.
+        n, noise = 14, random.Random(5)
+        points = [((i if i < n / 2 else n - i) / n + (0 < i < n) * noise.uniform(-.03, .03), j / n,
+                   (0 if i < n / 2 else .004) + noise.uniform(-.001, .001)) for j in range(n + 1) for i in range(n + 1)]
+        faces = [f for j in range(n) for i in range(n) for q in (j * (n + 1) + i,)
+                 for f in (((q, q + 1, q + n + 2), (q, q + n + 2, q + n + 1)) if noise.random() < .5 else
+                           ((q, q + 1, q + n + 1), (q + 1, q + n + 2, q + n + 1)))]
+        write_off(self.folder / "folded.off", points, faces)
+        (self.folder / "all").write_text("".join("%d\n" % v for v in range(len(points))))
+        report = self.report("folded.off", "-o", "out.off", "--connectivity", "flip", "--fix", "all")
+        self.assertEqual(report["geometry"]["displacement"]["max"], 0)
+        self.assertTrue(report["geometry"]["folded_faces"])
+        self.assertIn("folded_faces", {w["code"] for w in report["warnings"]})
 
     def test_with_its_faces_kept_a_mesh_goes_back_rather_than_too_far(self):
         report = self.report(DATA / "torus.off", "-o", "out.off", "--max-distance", "0.001%")

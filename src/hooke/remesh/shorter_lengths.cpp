@@ -17,10 +17,10 @@ namespace hooke {
 
 namespace {
 
-/// Of all edges: not worth another attempt.
-bool are_few(std::size_t places, const Attempt& attempt) {
+/// Of all edges or faces: not worth another attempt.
+bool are_few(std::size_t places, std::size_t all) {
   constexpr double few = .0005;
-  return static_cast<double>(places) < few * static_cast<double>(attempt.mesh.n_edges());
+  return static_cast<double>(places) < few * static_cast<double>(all);
 }
 
 }  // namespace
@@ -29,7 +29,7 @@ std::optional<AskedLengths> ShorterLengths::resolving_bends(const Attempt& attem
   constexpr double max_bend = 45;  // degrees, within an edge
   std::vector<Bend> bends = unresolved_bends(maker_, attempt, max_bend);
   std::erase_if(bends, [](const Bend& b) { return b.across_crease; });  // may be several of the input in one
-  if (are_few(bends.size(), attempt)) return std::nullopt;
+  if (are_few(bends.size(), attempt.mesh.n_edges())) return std::nullopt;
   constexpr double fine_bend = 33, coarser = 4. / 3, more_faces = 2;
   const auto lengths_at = [&](double bend, double Bend::*length) {
     AskedLengths lengths = attempt.lengths;
@@ -50,13 +50,14 @@ std::optional<AskedLengths> ShorterLengths::resolving_bends(const Attempt& attem
 std::optional<AskedLengths> ShorterLengths::resolving_walls(const Attempt& attempt, double max_faces) const {
   constexpr double max_share = .2, fine_share = .1, coarser = 16. / 9, least = .1;
   const std::vector<LeftWall> walls = left_walls(maker_, attempt, max_share);
-  if (are_few(walls.size(), attempt)) return std::nullopt;
+  if (walls.empty() || are_few(walls.size(), maker_.input().adjacency.faces.size())) return std::nullopt;
   for (double share = fine_share; share < 2 * max_share; share *= coarser) {
     AskedLengths lengths = attempt.lengths;
     for (const LeftWall& w : walls) {  // chords leave a smooth surface by the square of lengths
       const double finer = std::max(std::sqrt(share * w.thickness / w.distance), least);
       if (finer < 1) lengths.shorter.push_back({w.from, w.to, w.target * finer});
     }
+    if (lengths.shorter.size() == attempt.lengths.shorter.size()) return std::nullopt;
     if (faces_of(lengths, max_faces) <= max_faces) return lengths;
   }
   return std::nullopt;
