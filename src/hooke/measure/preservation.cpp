@@ -88,20 +88,24 @@ bool has_same_face(const MeasuredSurface& surface, const MeasuredSurface& other,
 void add_faces_beyond(const MeasuredSurface& from, const MeasuredSurface& to,
                       const std::vector<double>& limits, bool is_reference, std::vector<FarVertex>& far,
                       Preservation& p) {
+  constexpr double rounding = 1e-9;  // of the limit
   const Adjacency& c = from.adjacency;
   const auto any_face = [](int) { return true; };
+  const double least_limit = std::ranges::min(limits);
   std::vector<double> excess(c.faces.size(), 0);
   std::vector<FarSample> worst(c.faces.size());
   parallel_for(c.faces.size(), block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t f = begin; f < end; ++f) {
       if (has_same_face(from, to, f)) continue;
       const auto corner = [&](std::size_t k) { return Vec3(from.points.col(c.faces[f][k % 3])); };
-      int near = -1;  // the face closest to the sample before
+      int near = f < to.adjacency.faces.size() ? static_cast<int>(f) : -1;  // close to the sample before
       const auto sample = [&](const Vec3& x) {
         ClosestPoint known;
         if (near >= 0) {
           const Triangle& t = to.adjacency.faces[near];
           update_closest(x, {to.points.col(t[0]), to.points.col(t[1]), to.points.col(t[2])}, near, known);
+          const double enough = std::max(excess[f], rounding) * (is_reference ? limits[f] : least_limit);
+          if (known.squared_distance <= enough * enough) return;
         }
         const ClosestPoint closest = to.tree.closest(x, any_face, known);
         near = closest.face;
