@@ -14,6 +14,7 @@
 #include "hooke/mesh/adjacency.h"
 #include "hooke/mesh/extent.h"
 #include "hooke/mesh/topology.h"
+#include "support/crease_solids.h"
 #include "support/errors.h"
 #include "support/meshes.h"
 #include "support/solids.h"
@@ -142,6 +143,54 @@ TEST(Repair, ACavityKeepsItsOrientation) {
   EXPECT_EQ(codes(repaired(test::both(test::sphere(2), inner))), Codes{});
   inner.points.array() += 5;
   EXPECT_EQ(codes(repaired(test::both(test::sphere(2), inner))), Codes{"components_turned"});
+}
+
+TEST(Repair, FinsOfRoundingAreDroppedOnBothSides) {
+  const test::Triangles cube = test::cube();
+  for (const double height : {0., 1e-9, .1}) {
+    test::Triangles t = cube;
+    const auto& [a, b, c] = cube.faces[0];
+    const int tip = static_cast<int>(t.points.cols());
+    t.points.conservativeResize(3, tip + 1);
+    t.points.col(tip) = .5 * (cube.points.col(a) + cube.points.col(b)) +
+                        height * (cube.points.col(b) - cube.points.col(a)).unitOrthogonal();
+    t.faces.insert(t.faces.begin() + 2, {a, b, tip});
+    t.faces.push_back({b, a, tip});
+    const Repaired r = repaired(t);
+    EXPECT_TRUE(is_valid(r));
+    EXPECT_EQ(topology_of(r).closed(), height < .1) << height;
+    if (height == .1) continue;
+    EXPECT_EQ(codes(r), (Codes{"flaps_dropped", "vertices_dropped"}));
+    EXPECT_EQ(r.triangles, cube.faces);
+    EXPECT_EQ(r.changes[0].message,
+              "m: 2 faces dropped that lie back to back with nothing between them: faces 2, 13");
+  }
+}
+
+TEST(Repair, AWallThatIsWeldedFlatLeavesItsBodyClosed) {
+  const auto is_filled = [](int i, int, int k) { return k == 0 || i == 1; };
+  test::Triangles t = test::cells(4, 3, 3, is_filled, 0);
+  for (Eigen::Index v = 0; v < t.points.cols(); ++v)
+    if (t.points(0, v) > 1.5) t.points(0, v) -= .99;
+  const Repaired r = repaired(t, {.repair = true, .weld = .02});
+  EXPECT_EQ(std::ranges::count(codes(r), "flaps_dropped"), 1);
+  EXPECT_EQ(std::ranges::count(codes(r), "duplicate_faces_dropped"), 0);
+  EXPECT_TRUE(is_valid(r));
+  EXPECT_TRUE(topology_of(r).closed());
+  EXPECT_EQ(topology_of(r).euler, 2);
+  EXPECT_NEAR(volume_of(r), 3.01 * 3, 1e-9);
+}
+
+TEST(Repair, OfTwoSidesOfASheetOneStays) {
+  test::Triangles sheet = test::grid(5, test::flat);
+  test::Triangles t = sheet;
+  for (Triangle face : sheet.faces) {
+    flip(face);
+    t.faces.push_back(face);
+  }
+  EXPECT_EQ(repaired(t).triangles, sheet.faces);
+  for (Eigen::Index v = 0; v < t.points.cols(); ++v) t.points(1, v) *= 1e-9;
+  EXPECT_EQ(repaired(t).triangles.size(), sheet.faces.size());
 }
 
 TEST(Repair, DuplicatesAndRepeatedVerticesAreDropped) {

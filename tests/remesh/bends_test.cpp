@@ -4,6 +4,7 @@
 
 #include "hooke/mesh/mesh.h"
 #include "hooke/remesh/preserving_remesh.h"
+#include "support/crease_solids.h"
 #include "support/remeshed.h"
 #include "support/solids.h"
 

@@ -14,6 +14,7 @@
 #include "hooke/geometry/triangle.h"
 #include "hooke/mesh/adjacency.h"
 #include "hooke/mesh/extent.h"
+#include "hooke/mesh/flaps.h"
 #include "hooke/mesh/halfedge_mesh.h"
 #include "hooke/mesh/hole_filling.h"
 #include "hooke/mesh/sheets.h"
@@ -22,9 +23,15 @@
 namespace hooke {
 namespace {
 
-std::array<int, 3> sorted(Triangle t) {
+Triangle sorted(Triangle t) {
   std::ranges::sort(t);
   return t;
+}
+
+/// Of faces with the same vertices.
+bool have_same_direction(const Triangle& s, const Triangle& t) {
+  const size_t k = std::ranges::find(t, s[0]) - t.begin();
+  return t[(k + 1) % 3] == s[1];
 }
 
 /// The components of a manifold: of each face the smallest face that it hangs together with.
@@ -91,6 +98,7 @@ class Repair {
     if (options_.repair) {
       weld_boundaries();
       drop_faces_that_repeat_a_vertex();
+      drop_flaps();
       drop_duplicates();
       make_manifold();
       drop_small_components();
@@ -156,11 +164,27 @@ class Repair {
   }
 
   void weld_all() {
+    if (options_.repair) note_unwelded();
     const double distance =
         options_.weld >= 0 ? options_.weld
                            : options_.weld_share * box_of_faces(r_.points, r_.triangles).diagonal().norm();
     merge(std::vector<double>(r_.origin.vertex.size(), distance));
     drop_faces_that_repeat_a_vertex();
+  }
+
+  void note_unwelded() {
+    const std::vector<int> component = components_of(r_.triangles, r_.points.cols());
+    const Boundary boundary = find_boundary();
+    std::vector<char> is_open(component.size(), 0);
+    for (int f : boundary.face)
+      if (f >= 0) is_open[component[f]] = 1;
+    const size_t old_faces = r_.origin.face.empty() ? 0 : r_.origin.face.back() + 1;
+    unwelded_.resize(old_faces);
+    body_of_unwelded_.assign(old_faces, -1);
+    for (size_t f = 0; f < r_.triangles.size(); ++f) {
+      unwelded_[r_.origin.face[f]] = r_.triangles[f];
+      if (!is_open[component[f]]) body_of_unwelded_[r_.origin.face[f]] = component[f];
+    }
   }
 
   void weld_boundaries() { merge(reach_of_boundary(r_.points, r_.triangles)); }
@@ -287,14 +311,54 @@ class Repair {
                [&](int f) { return uses_a_vertex_twice(r_.triangles[f]); });
   }
 
-  void drop_duplicates() {
+  /// The faces ordered by their vertices, equal ones by their ids.
+  std::vector<int> ordered_by_vertices() const {
     std::vector<int> order(r_.triangles.size());
     std::iota(order.begin(), order.end(), 0);
-    std::vector<std::array<int, 3>> keys;
+    std::vector<Triangle> keys;
     for (const Triangle& t : r_.triangles) keys.push_back(sorted(t));
     std::ranges::sort(order, [&](int a, int b) { return std::tie(keys[a], a) < std::tie(keys[b], b); });
+    return order;
+  }
+
+  bool have_same_vertices(int f, int g) const { return sorted(r_.triangles[f]) == sorted(r_.triangles[g]); }
+
+  /// Is nothing between two faces back to back because they are too thin, or because they bounded one body
+  /// before it was welded? Others may be the wall between two bodies, or the sides of a sheet.
+  bool encloses_nothing(int f, int g, double rounding) const {
+    const Triangle& t = r_.triangles[f];
+    double longest = 0;
+    for (size_t k = 0; k < 3; ++k) longest = std::max(longest, distance(t[k], t[(k + 1) % 3]));
+    if (2 * area_of(r_.points, t) <= rounding * longest) return true;
+    if (unwelded_.empty()) return false;
+    const int first = r_.origin.face[f], second = r_.origin.face[g];
+    return body_of_unwelded_[first] >= 0 && body_of_unwelded_[first] == body_of_unwelded_[second] &&
+           sorted(unwelded_[first]) != sorted(unwelded_[second]);
+  }
+
+  void drop_flaps() {
+    if (options_.keep_junctions) return;  // they may be two walls that come together, of which one stays
+    constexpr double rounding = 10 * rounding_share;
+    const std::vector<int> order = ordered_by_vertices();
+    const double thin = rounding * box_of_faces(r_.points, r_.triangles).diagonal().norm();
+    std::vector<std::array<int, 2>> pairs;
+    for (size_t begin = 0, end = 0; begin < order.size(); begin = end) {
+      while (end < order.size() && have_same_vertices(order[begin], order[end])) ++end;
+      if (end - begin != 2) continue;
+      const int f = order[begin], g = order[begin + 1];
+      if (!have_same_direction(r_.triangles[f], r_.triangles[g]) && encloses_nothing(f, g, thin))
+        pairs.push_back({f, g});
+    }
+    const std::vector<int> flaps = find_flaps(r_.triangles, pairs);
+    drop_faces("flaps_dropped", "faces dropped that lie back to back with nothing between them",
+               [&](int f) { return std::ranges::binary_search(flaps, f); });
+  }
+
+  void drop_duplicates() {
+    const std::vector<int> order = ordered_by_vertices();
     std::vector<char> duplicate(order.size(), 0);
-    for (size_t i = 1; i < order.size(); ++i) duplicate[order[i]] = keys[order[i]] == keys[order[i - 1]];
+    for (size_t i = 1; i < order.size(); ++i)
+      duplicate[order[i]] = have_same_vertices(order[i], order[i - 1]);
     drop_faces("duplicate_faces_dropped", "faces dropped whose vertices another face has",
                [&](int f) { return duplicate[f] != 0; });
   }
@@ -587,6 +651,9 @@ class Repair {
   const RepairOptions& options_;
   const MeshSource& source_;
   Repaired r_;
+  std::vector<Triangle> unwelded_;  // by old face, as it was before all vertices were welded
+  std::vector<int>
+      body_of_unwelded_;  // the closed component of that face, -1 if it is open; both may be empty
 };
 
 }  // namespace

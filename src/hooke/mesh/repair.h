@@ -54,7 +54,9 @@ struct Repaired {
 /// vertices closer than that are merged, and faces that lose a corner by it are dropped. With `repair`:
 /// - vertices at boundaries are merged where they are within welding_share of the shortest boundary edge
 /// there;
-/// - faces that use a vertex twice and the second of faces with the same vertices are dropped;
+/// - faces that use a vertex twice are dropped; so are flaps (see flaps.h) that are no thicker than rounding,
+/// or that welding made of one closed body, but with `keep_junctions`, where they may be two walls; and the
+/// second of other faces with the same vertices;
 /// - surfaces are oriented, cut and split as make_sheets() does;
 /// - components that are too small are dropped, holes that are small enough are filled;
 /// - closed components that are inside out and in no other are turned outward;
