@@ -98,8 +98,7 @@ class Repair {
     if (options_.repair) {
       weld_boundaries();
       drop_faces_that_repeat_a_vertex();
-      drop_flaps();
-      drop_duplicates();
+      drop_flaps_and_duplicates();
       make_manifold();
       drop_small_components();
       fill_holes();
@@ -325,21 +324,32 @@ class Repair {
 
   /// Is nothing between two faces back to back because they are too thin, or because they bounded one body
   /// before it was welded? Others may be the wall between two bodies, or the sides of a sheet.
-  bool encloses_nothing(int f, int g, double rounding) const {
+  bool encloses_nothing(int f, int g, double thin) const {
     const Triangle& t = r_.triangles[f];
     double longest = 0;
     for (size_t k = 0; k < 3; ++k) longest = std::max(longest, distance(t[k], t[(k + 1) % 3]));
-    if (2 * area_of(r_.points, t) <= rounding * longest) return true;
+    if (2 * area_of(r_.points, t) <= thin * longest) return true;
     if (unwelded_.empty()) return false;
     const int first = r_.origin.face[f], second = r_.origin.face[g];
     return body_of_unwelded_[first] >= 0 && body_of_unwelded_[first] == body_of_unwelded_[second] &&
            sorted(unwelded_[first]) != sorted(unwelded_[second]);
   }
 
-  void drop_flaps() {
-    if (options_.keep_junctions) return;  // they may be two walls that come together, of which one stays
+  void drop_flaps_and_duplicates() {
+    std::vector<int> order = ordered_by_vertices();
+    const auto are_same = [this](int f, int g) { return have_same_vertices(f, g); };
+    if (std::ranges::adjacent_find(order, are_same) == order.end()) return;
+    // With junctions, flaps may be two walls that come together, of which one stays.
+    if (!options_.keep_junctions && drop_flaps(order)) order = ordered_by_vertices();
+    std::vector<char> duplicate(order.size(), 0);
+    for (size_t i = 1; i < order.size(); ++i) duplicate[order[i]] = are_same(order[i], order[i - 1]);
+    drop_faces("duplicate_faces_dropped", "faces dropped whose vertices another face has",
+               [&](int f) { return duplicate[f] != 0; });
+  }
+
+  /// Returns whether there are any.
+  bool drop_flaps(const std::vector<int>& order) {
     constexpr double rounding = 10 * rounding_share;
-    const std::vector<int> order = ordered_by_vertices();
     const double thin = rounding * box_of_faces(r_.points, r_.triangles).diagonal().norm();
     std::vector<std::array<int, 2>> pairs;
     for (size_t begin = 0, end = 0; begin < order.size(); begin = end) {
@@ -352,15 +362,7 @@ class Repair {
     const std::vector<int> flaps = find_flaps(r_.triangles, pairs);
     drop_faces("flaps_dropped", "faces dropped that lie back to back with nothing between them",
                [&](int f) { return std::ranges::binary_search(flaps, f); });
-  }
-
-  void drop_duplicates() {
-    const std::vector<int> order = ordered_by_vertices();
-    std::vector<char> duplicate(order.size(), 0);
-    for (size_t i = 1; i < order.size(); ++i)
-      duplicate[order[i]] = have_same_vertices(order[i], order[i - 1]);
-    drop_faces("duplicate_faces_dropped", "faces dropped whose vertices another face has",
-               [&](int f) { return duplicate[f] != 0; });
+    return !flaps.empty();
   }
 
   void drop_small_components() {
