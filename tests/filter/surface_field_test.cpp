@@ -11,7 +11,6 @@
 #include "hooke/mesh/adjacency.h"
 #include "hooke/mesh/normals.h"
 #include "hooke/mesh/sagitta.h"
-#include "support/crease_solids.h"
 #include "support/meshes.h"
 #include "support/solids.h"
 

@@ -181,6 +181,24 @@ TEST(Repair, AWallThatIsWeldedFlatLeavesItsBodyClosed) {
   EXPECT_NEAR(volume_of(r), 3.01 * 3, 1e-9);
 }
 
+TEST(Repair, BodiesThatShareAWallAreTakenApart) {
+  const test::Triangles cube = test::cube();
+  test::Triangles mirrored = cube;
+  mirrored.points.row(0) = (2 - cube.points.row(0).array()).matrix();
+  for (Triangle& face : mirrored.faces) flip(face);
+  test::Triangles t = test::shuffled(test::both(cube, mirrored));
+  std::ranges::shuffle(t.faces, std::mt19937(3));
+  const Repaired r = repaired(t, {.repair = true, .weld = 1e-6});
+  EXPECT_EQ(codes(r), (Codes{"vertices_welded", "edges_cut"}));
+  EXPECT_EQ(r.triangles.size(), 24);
+  EXPECT_TRUE(is_valid(r));
+  EXPECT_EQ(topology_of(r).components, 2);
+  EXPECT_TRUE(topology_of(r).closed());
+  EXPECT_NEAR(volume_of(r), 2, 1e-12);
+  const Repaired joined = repaired(t, {.repair = true, .weld = 1e-6, .keep_junctions = true});
+  EXPECT_EQ(joined.triangles.size(), 22) << "one wall";
+}
+
 TEST(Repair, OfTwoSidesOfASheetOneStays) {
   test::Triangles sheet = test::grid(5, test::flat);
   test::Triangles t = sheet;
@@ -249,7 +267,9 @@ TEST(Repair, AFinIsCutOffAndTheSheetGoesOn) {
   points << 0, 0, 1, -1, 0, 0, 1, .5, .5, .5, 0, 0, 0, 0, 1;
   const Repaired r = repaired({points, {{0, 1, 3}, {0, 1, 4}, {1, 0, 2}}});
   ASSERT_EQ(codes(r), Codes{"edges_cut"});
-  EXPECT_EQ(r.changes[0].message, "m: 1 edges with three or more faces cut into sheets: edges 0-1");
+  EXPECT_EQ(r.changes[0].message,
+            "m: 1 edges with three or more faces cut into sheets (--keep non-manifold leaves walls between "
+            "bodies joined): edges 0-1");
   EXPECT_EQ(r.triangles[0], (Triangle{0, 1, 3}));
   EXPECT_EQ(r.triangles[2], (Triangle{1, 0, 2}));
   EXPECT_EQ(r.triangles[1], (Triangle{5, 6, 4}));

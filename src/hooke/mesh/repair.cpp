@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <numbers>
 #include <numeric>
+#include <optional>
 #include <queue>
 #include <unordered_set>
 #include <utility>
@@ -340,7 +341,10 @@ class Repair {
     const auto are_same = [this](int f, int g) { return have_same_vertices(f, g); };
     if (std::ranges::adjacent_find(order, are_same) == order.end()) return;
     // With junctions, flaps may be two walls that come together, of which one stays.
-    if (!options_.keep_junctions && drop_flaps(order)) order = ordered_by_vertices();
+    if (!options_.keep_junctions) {
+      if (drop_flaps(order)) order = ordered_by_vertices();
+      if (separate_solids()) return;
+    }
     std::vector<char> duplicate(order.size(), 0);
     for (size_t i = 1; i < order.size(); ++i) duplicate[order[i]] = are_same(order[i], order[i - 1]);
     drop_faces("duplicate_faces_dropped", "faces dropped whose vertices another face has",
@@ -431,10 +435,14 @@ class Repair {
   }
 
   /// Is the mesh an oriented manifold but for what can be kept?
-  bool has_junctions() const {
+  bool has_junctions(std::optional<ProblemKind> besides = {}) const {
     bool found = false;
     for (const Problem& problem : find_problems(r_.points, r_.triangles)) {
       if (is_acceptable(problem.kind)) continue;
+      if (problem.kind == besides) {
+        found = true;
+        continue;
+      }
       const bool is_one_sided = problem.kind == ProblemKind::inconsistent_orientation && options_.repair;
       if (!is_junction(problem.kind) && !is_one_sided) return false;
       found = true;
@@ -450,29 +458,36 @@ class Repair {
   }
 
   /// Cuts solids apart that touch, where there is but one way to: they are closed, look outward, and their
-  /// faces alternate around each edge.
-  void separate_solids() {
-    if (!has_junctions()) return;
+  /// faces alternate around each edge. Returns whether it has.
+  bool separate_solids() {
+    if (!has_junctions(ProblemKind::duplicate_face)) return false;
     Sheets sheets = make_sheets(r_.points, r_.triangles);
     if (!sheets.flipped_faces.empty() || !sheets.opened_edges.empty() || !sheets.guessed_edges.empty())
-      return;
+      return false;
     Mat3X points(3, static_cast<Eigen::Index>(sheets.source.size()));
     for (Eigen::Index v = 0; v < points.cols(); ++v)
       points.col(v) = r_.points.col(sheets.source[static_cast<std::size_t>(v)]);
+    if (std::ranges::any_of(find_problems(points, sheets.triangles),
+                            [](const Problem& problem) { return !is_acceptable(problem.kind); }))
+      return false;
     const Extent extent =
         measure_extent(points, make_adjacency(static_cast<int>(points.cols()), sheets.triangles));
-    if (!extent.volume || !(*extent.volume > 0)) return;
+    if (!extent.volume || !(*extent.volume > 0)) return false;
     tell("edges_cut", sheets.cut_edges.size(), "edges in which solids touch taken apart",
          edge_places(sheets.cut_edges));
     tell("vertices_split", sheets.split_vertices.size(), "vertices in which solids touch taken apart",
          vertex_places(sheets.split_vertices));
     replace_by(sheets);
+    return true;
   }
 
   void make_manifold() {
     if (options_.keep_junctions) return orient();
     Sheets sheets = make_sheets(r_.points, r_.triangles);
-    tell("edges_cut", sheets.cut_edges.size(), "edges with three or more faces cut into sheets",
+    const char* const hint =
+        sheets.guessed_edges.empty() ? "" : " (--keep non-manifold leaves walls between bodies joined)";
+    tell("edges_cut", sheets.cut_edges.size(),
+         fmt::format("edges with three or more faces cut into sheets{}", hint),
          edge_places(sheets.cut_edges));
     tell("surface_opened", sheets.opened_edges.size(),
          "edges cut open, as the surface there has only one side", edge_places(sheets.opened_edges));

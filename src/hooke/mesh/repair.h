@@ -50,13 +50,15 @@ struct Repaired {
 
 /// With `drop_strays` faces that use a vertex twice are dropped, and in the end the vertices in no face. With
 /// `separate` solids that touch in edges and vertices are cut apart, if the mesh is an oriented manifold but
-/// for that, closed, and looks outward, and faces alternate in their direction around each edge. With `weld`,
-/// vertices closer than that are merged, and faces that lose a corner by it are dropped. With `repair`:
+/// for that, closed, and looks outward, and faces alternate in their direction around each edge; of faces
+/// back to back each is the wall of one of them. With `weld`, vertices closer than that are merged, and faces
+/// that lose a corner by it are dropped. With `repair`:
 /// - vertices at boundaries are merged where they are within welding_share of the shortest boundary edge
 /// there;
 /// - faces that use a vertex twice are dropped; so are flaps (see flaps.h) that are no thicker than rounding,
-/// or that welding made of one closed body, but with `keep_junctions`, where they may be two walls; and the
-/// second of other faces with the same vertices;
+/// or that welding made of one closed body, but with `keep_junctions`, where they may be two walls;
+/// - solids that touch are cut apart as with `separate`, but with `keep_junctions`; else the second of faces
+/// with the same vertices is dropped;
 /// - surfaces are oriented, cut and split as make_sheets() does;
 /// - components that are too small are dropped, holes that are small enough are filled;
 /// - closed components that are inside out and in no other are turned outward;

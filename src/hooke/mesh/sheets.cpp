@@ -168,7 +168,10 @@ class SheetMaker {
     std::vector<std::pair<double, Side>> around;
     around.reserve(sides.size());
     for (const Side side : sides) around.emplace_back(angle_at_edge(side), side);
-    std::ranges::sort(around);
+    // Of two faces in one place the one that looks to larger angles comes first: solids touch there.
+    std::ranges::sort(around, {}, [this](const std::pair<double, Side>& at) {
+      return std::tuple(at.first, !runs_up_flipped(at.second), at.second);
+    });
     if (alternates(around)) {
       pair_around_solids(around);
     } else {

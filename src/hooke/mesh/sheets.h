@@ -30,7 +30,8 @@ enum class ManyFaces {
 /// At edges of two faces these are neighbours. At others the faces around a solid are, if faces alternate in
 /// their direction along the edge; else those that continue each other best, in pairs. Of the faces that hang
 /// together the fewer are flipped. Each vertex is split so that the faces around it are one fan of
-/// neighbours. Pre-condition: the corners of a triangle differ, and no two have the same three.
+/// neighbours. Of two faces back to back each is the wall of one solid.
+/// Pre-condition: the corners of a triangle differ; if two have the same three, the result may be invalid.
 Sheets make_sheets(const Mat3X& points, const std::vector<Triangle>& triangles,
                    ManyFaces many_faces = ManyFaces::paired);
 
