@@ -65,6 +65,7 @@ class PreservingRemesh {
       note_bends(maker_, best);
       note_walls(maker_, best);
     }
+    if (!maker_.adapts()) leave_what_hardly_moved(best);
     if (!best.lengths.shorter.empty()) best.result.shortened = shorter_.count_in(best);
     if (!maker_.adapts() && vertex_points(best.mesh) == maker_.as_written(vertex_points(maker_.mesh())))
       best.result.steps = MaskSteps::none;
@@ -502,6 +503,15 @@ class PreservingRemesh {
     maker_.judge(run);
     run.result.rescue = Rescue::kept_faces;
     return run;
+  }
+
+  /// Vertices that moved by rounding only are where they were.
+  void leave_what_hardly_moved(Attempt& best) const {
+    const double rounding = 4 * std::numeric_limits<double>::epsilon() * input_.extent.diagonal;
+    auto points = vertex_points(best.mesh);
+    const Mat3X before = maker_.as_written(vertex_points(maker_.mesh()));
+    for (Eigen::Index v = 0; v < points.cols(); ++v)
+      if ((points.col(v) - before.col(v)).norm() <= rounding) points.col(v) = before.col(v);
   }
 
   /// Does it keep its promises, and its polygons?
