@@ -4,8 +4,6 @@
 
 namespace hooke::flaps_test {
 
-using Pairs = std::vector<std::array<int, 2>>;
-
 TEST(Flaps, AFinOfTwoPairsOnABodyIsOne) {
   const std::vector<Triangle> t{{0, 1, 2}, {1, 0, 3}, {0, 1, 4}, {4, 1, 0}, {1, 5, 4}, {4, 5, 1}};
   EXPECT_EQ(find_flaps(t, {{2, 3}, {4, 5}}), (std::vector<int>{2, 3, 4, 5}));

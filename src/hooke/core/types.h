@@ -3,8 +3,10 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <limits>
 #include <string>
@@ -26,6 +28,11 @@ inline std::size_t corner_of(const Triangle& face, int vertex) {
 
 inline bool uses_a_vertex_twice(const Triangle& face) {
   return face[0] == face[1] || face[1] == face[2] || face[2] == face[0];
+}
+
+/// The same number for both directions of an edge.
+inline std::uint64_t edge_key(int a, int b) {
+  return static_cast<std::uint64_t>(std::min(a, b)) << 32 | static_cast<std::uint32_t>(std::max(a, b));
 }
 
 /// The 32-bit float closest to a number, or the number itself beyond the range of floats; of all coordinates.

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <numeric>
+#include <tuple>
 #include <unordered_map>
 #include <utility>
 
@@ -9,11 +11,6 @@
 
 namespace hooke {
 namespace {
-
-std::uint64_t edge_key(int a, int b) {
-  const auto [low, high] = std::minmax(a, b);
-  return static_cast<std::uint64_t>(static_cast<std::uint32_t>(low)) << 32 | static_cast<std::uint32_t>(high);
-}
 
 class FlapSearch {
  public:
@@ -62,7 +59,7 @@ class FlapSearch {
 
   void drop_what_would_open() {
     std::vector<int> left(pairs_.size());
-    for (std::size_t p = 0; p < left.size(); ++p) left[p] = static_cast<int>(p);
+    std::iota(left.begin(), left.end(), 0);
     while (!left.empty()) {
       const int p = left.back(), face = pairs_[p][0];
       left.pop_back();
@@ -107,6 +104,33 @@ class FlapSearch {
 };
 
 }  // namespace
+
+std::vector<std::vector<int>> faces_of_same_vertices(const std::vector<Triangle>& triangles) {
+  std::vector<int> order(triangles.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::vector<Triangle> keys = triangles;
+  for (Triangle& key : keys) std::ranges::sort(key);
+  std::ranges::sort(order, [&](int a, int b) { return std::tie(keys[a], a) < std::tie(keys[b], b); });
+  std::vector<std::vector<int>> groups;
+  for (std::size_t i = 1; i < order.size(); ++i) {
+    if (keys[order[i]] != keys[order[i - 1]]) continue;
+    if (groups.empty() || groups.back().back() != order[i - 1]) groups.push_back({order[i - 1]});
+    groups.back().push_back(order[i]);
+  }
+  return groups;
+}
+
+std::vector<std::array<int, 2>> faces_back_to_back(const std::vector<Triangle>& triangles,
+                                                   const std::vector<std::vector<int>>& groups) {
+  std::vector<std::array<int, 2>> pairs;
+  for (const std::vector<int>& group : groups) {
+    if (group.size() != 2) continue;
+    const Triangle &s = triangles[group[0]], &t = triangles[group[1]];
+    const bool same_direction = t[(corner_of(t, s[0]) + 1) % 3] == s[1];
+    if (!same_direction) pairs.push_back({group[0], group[1]});
+  }
+  return pairs;
+}
 
 std::vector<int> find_flaps(const std::vector<Triangle>& triangles,
                             const std::vector<std::array<int, 2>>& pairs) {

@@ -16,9 +16,9 @@
 #include "hooke/mesh/adjacency.h"
 #include "hooke/mesh/extent.h"
 #include "hooke/mesh/flaps.h"
-#include "hooke/mesh/halfedge_mesh.h"
 #include "hooke/mesh/hole_filling.h"
 #include "hooke/mesh/sheets.h"
+#include "hooke/mesh/tiny_edges.h"
 #include "hooke/mesh/vertex_welding.h"
 
 namespace hooke {
@@ -27,12 +27,6 @@ namespace {
 Triangle sorted(Triangle t) {
   std::ranges::sort(t);
   return t;
-}
-
-/// Of faces with the same vertices.
-bool have_same_direction(const Triangle& s, const Triangle& t) {
-  const size_t k = std::ranges::find(t, s[0]) - t.begin();
-  return t[(k + 1) % 3] == s[1];
 }
 
 /// The components of a manifold: of each face the smallest face that it hangs together with.
@@ -54,8 +48,52 @@ std::vector<int> components_of(const std::vector<Triangle>& triangles, size_t ve
   return component;
 }
 
+struct Boundary {
+  std::vector<int> next;  // the vertex after each on its boundary, as a face has them; -1 off boundaries
+  std::vector<int> face;  // with the edge to the next
+  std::unordered_set<std::uint64_t> edges;  // keys of all edges of the mesh
+};
+
+Boundary find_boundary(const std::vector<Triangle>& triangles, size_t vertices) {
+  Boundary b;
+  b.next.assign(vertices, -1);
+  b.face.assign(vertices, -1);
+  std::unordered_set<std::uint64_t> twice;
+  for (const Triangle& t : triangles)
+    for (size_t k = 0; k < 3; ++k)
+      if (const std::uint64_t key = edge_key(t[k], t[(k + 1) % 3]); !b.edges.insert(key).second)
+        twice.insert(key);
+  for (size_t f = 0; f < triangles.size(); ++f)
+    for (size_t k = 0; k < 3; ++k) {
+      const int from = triangles[f][k], to = triangles[f][(k + 1) % 3];
+      if (twice.contains(edge_key(from, to))) continue;
+      b.next[from] = to;
+      b.face[from] = static_cast<int>(f);
+    }
+  return b;
+}
+
+/// The component of each face, -1 if it has a boundary.
+std::vector<int> bodies_of(const std::vector<Triangle>& triangles, size_t vertices) {
+  std::vector<int> component = components_of(triangles, vertices);
+  std::vector<char> is_open(component.size(), 0);
+  for (const int f : find_boundary(triangles, vertices).face)
+    if (f >= 0) is_open[component[f]] = 1;
+  for (int& c : component)
+    if (is_open[c]) c = -1;
+  return component;
+}
+
 double area_of(const Mat3X& points, const Triangle& t) {
   return .5 * doubled_area_vector(points, t).norm();
+}
+
+/// Over the longest edge.
+double height_of(const Mat3X& points, const Triangle& t) {
+  double longest = 0;
+  for (size_t k = 0; k < 3; ++k)
+    longest = std::max(longest, (points.col(t[k]) - points.col(t[(k + 1) % 3])).norm());
+  return longest > 0 ? 2 * area_of(points, t) / longest : 0;
 }
 
 /// How often the faces wind around the point, by the solid angles of A. Van Oosterom, J. Strackee, "The solid
@@ -72,10 +110,6 @@ double winding_number(const Mat3X& points, const std::vector<Triangle>& faces, c
 
 /// In a foam with more tests than that, a component in the box of another is taken to be in the other.
 constexpr size_t most_faces_tested = 100'000'000;
-
-/// An edge of some length is one of rounding only if it is no longer than this share of another one at an
-/// end.
-constexpr double rounding_beside = 1e-3;
 
 class Repair {
  public:
@@ -173,108 +207,26 @@ class Repair {
   }
 
   void note_unwelded() {
-    const std::vector<int> component = components_of(r_.triangles, r_.points.cols());
-    const Boundary boundary = find_boundary();
-    std::vector<char> is_open(component.size(), 0);
-    for (int f : boundary.face)
-      if (f >= 0) is_open[component[f]] = 1;
-    const size_t old_faces = r_.origin.face.empty() ? 0 : r_.origin.face.back() + 1;
-    unwelded_.resize(old_faces);
-    body_of_unwelded_.assign(old_faces, -1);
-    for (size_t f = 0; f < r_.triangles.size(); ++f) {
-      unwelded_[r_.origin.face[f]] = r_.triangles[f];
-      if (!is_open[component[f]]) body_of_unwelded_[r_.origin.face[f]] = component[f];
-    }
+    unwelded_.resize(r_.origin.face.empty() ? 0 : r_.origin.face.back() + 1);
+    for (size_t f = 0; f < r_.triangles.size(); ++f) unwelded_[r_.origin.face[f]] = r_.triangles[f];
   }
 
   void weld_boundaries() { merge(reach_of_boundary(r_.points, r_.triangles)); }
 
   // Collapsing.
 
-  double distance(int v, int w) const { return (r_.points.col(v) - r_.points.col(w)).norm(); }
-
-  /// Is an edge no longer than that one of rounding? Other edges at its ends show that it is no detail of a
-  /// shape of that size, and faces that it is not the thickness of a foil.
-  bool is_rounding(const HalfedgeMesh& halfedges, int h, double longest) const {
-    const double length = distance(halfedges.from(h), halfedges.to(h));
-    bool is_long_beside = false;
-    std::vector<Vec3> normals;  // of the faces at its ends that are no slivers
-    for (const int v : {halfedges.from(h), halfedges.to(h)}) {
-      for (const int w : halfedges.neighbours(v))
-        is_long_beside = is_long_beside || length <= rounding_beside * distance(v, w);
-      for (const int out : halfedges.outgoing(v)) {
-        const Triangle& t = halfedges.faces()[out / 3];
-        const Vec3 normal = doubled_area_vector(r_.points, t);
-        const double side = std::max({distance(t[0], t[1]), distance(t[1], t[2]), distance(t[2], t[0])});
-        if (normal.norm() > side * longest) normals.push_back(normal.normalized());
-      }
-    }
-    constexpr double opposite = -.98;
-    const auto faces_back = [&](const Vec3& n) {
-      return std::ranges::any_of(normals, [&](const Vec3& other) { return n.dot(other) < opposite; });
-    };
-    return is_long_beside && std::ranges::none_of(normals, faces_back);
-  }
-
-  /// Would a face that stays turn over or lose its area when the vertex goes where the other is?
-  bool turns_faces(const HalfedgeMesh& halfedges, int goes, int stays) const {
-    return std::ranges::any_of(halfedges.outgoing(goes), [&](int out) {
-      const Triangle& t = halfedges.faces()[out / 3];
-      if (std::ranges::find(t, stays) != t.end()) return false;
-      Triangle moved = t;
-      std::ranges::replace(moved, goes, stays);
-      const FaceShape before = face_shape(r_.points, t);
-      return !before.degenerate() && before.normal.dot(face_shape(r_.points, moved).normal) <= 0;
-    });
-  }
-
   void collapse_edges_without_length() {
     const double longest = rounding_share * box_of_faces(r_.points, r_.triangles).diagonal().norm();
-    const auto is_short = [&](int v, int w) { return distance(v, w) <= longest; };
-    const bool has_such_edges = std::ranges::any_of(r_.triangles, [&](const Triangle& t) {
-      return is_short(t[0], t[1]) || is_short(t[1], t[2]) || is_short(t[2], t[0]);
-    });
-    if (!has_such_edges ||
-        !std::ranges::all_of(find_problems(r_.points, r_.triangles), is_acceptable, &Problem::kind))
-      return;
-    HalfedgeMesh halfedges(make_adjacency(static_cast<int>(r_.origin.vertex.size()), r_.triangles));
-    std::vector<int> into(r_.origin.vertex.size());
-    std::iota(into.begin(), into.end(), 0);
-    std::vector<double> moved(into.size(), 0);  // of those merged into the vertex, at most
-    std::vector<Edge> collapsed;
-    size_t before;
-    do {  // a collapse may allow another one before it
-      before = collapsed.size();
-      for (int h = 0; h < halfedges.half_edge_count(); ++h) {
-        if (halfedges.is_removed(h / 3)) continue;
-        const int from = halfedges.from(h), to = halfedges.to(h);
-        const int stays = std::min(from, to), goes = std::max(from, to);
-        const double moves = distance(from, to) + moved[goes];
-        if (moves > longest || !halfedges.keeps_topology(h)) continue;
-        if (distance(from, to) > 0 &&
-            (!is_rounding(halfedges, h, longest) || turns_faces(halfedges, goes, stays)))
-          continue;
-        moved[stays] = std::max(moved[stays], moves);
-        halfedges.collapse(h, stays);
-        into[goes] = stays;
-        collapsed.push_back({stays, goes});
-      }
-    } while (collapsed.size() > before);
-    tell("edges_collapsed", collapsed.size(), "edges without length collapsed", edge_places(collapsed));
-    for (size_t v = 0; v < into.size(); ++v) into[v] = into[into[v]];  // of a smaller id, which is known
+    const TinyEdges tiny = collapse_tiny_edges(r_.points, r_.triangles, longest);
+    tell("edges_collapsed", tiny.collapsed.size(), "edges without length collapsed",
+         edge_places(tiny.collapsed));
+    if (tiny.collapsed.empty()) return;
+    r_.triangles = tiny.triangles;
     // Old ids are the first of the present ones: copies come last.
-    for (int& v : r_.origin.merged) v = r_.origin.vertex[into[v]];
-    std::vector<int> removed;
-    const size_t over_holes = r_.triangles.size() - r_.origin.filled;
-    for (size_t f = 0; f < r_.triangles.size(); ++f) {
-      if (!halfedges.is_removed(static_cast<int>(f))) {
-        r_.triangles[f] = halfedges.faces()[f];
-        continue;
-      }
-      removed.push_back(static_cast<int>(f));
-      if (f >= over_holes) --r_.origin.filled;
-    }
-    remove(removed);
+    for (int& v : r_.origin.merged) v = r_.origin.vertex[tiny.into[v]];
+    const auto over_holes = static_cast<int>(r_.triangles.size() - r_.origin.filled);
+    r_.origin.filled -= std::ranges::count_if(tiny.removed, [&](int f) { return f >= over_holes; });
+    remove(tiny.removed);
   }
 
   // Dropping.
@@ -311,58 +263,39 @@ class Repair {
                [&](int f) { return uses_a_vertex_twice(r_.triangles[f]); });
   }
 
-  /// The faces ordered by their vertices, equal ones by their ids.
-  std::vector<int> ordered_by_vertices() const {
-    std::vector<int> order(r_.triangles.size());
-    std::iota(order.begin(), order.end(), 0);
-    std::vector<Triangle> keys;
-    for (const Triangle& t : r_.triangles) keys.push_back(sorted(t));
-    std::ranges::sort(order, [&](int a, int b) { return std::tie(keys[a], a) < std::tie(keys[b], b); });
-    return order;
-  }
-
-  bool have_same_vertices(int f, int g) const { return sorted(r_.triangles[f]) == sorted(r_.triangles[g]); }
-
-  /// Is nothing between two faces back to back because they are too thin, or because they bounded one body
-  /// before it was welded? Others may be the wall between two bodies, or the sides of a sheet.
-  bool encloses_nothing(int f, int g, double thin) const {
-    const Triangle& t = r_.triangles[f];
-    double longest = 0;
-    for (size_t k = 0; k < 3; ++k) longest = std::max(longest, distance(t[k], t[(k + 1) % 3]));
-    if (2 * area_of(r_.points, t) <= thin * longest) return true;
-    if (unwelded_.empty()) return false;
-    const int first = r_.origin.face[f], second = r_.origin.face[g];
-    return body_of_unwelded_[first] >= 0 && body_of_unwelded_[first] == body_of_unwelded_[second] &&
-           sorted(unwelded_[first]) != sorted(unwelded_[second]);
-  }
-
   void drop_flaps_and_duplicates() {
-    std::vector<int> order = ordered_by_vertices();
-    const auto are_same = [this](int f, int g) { return have_same_vertices(f, g); };
-    if (std::ranges::adjacent_find(order, are_same) == order.end()) return;
+    std::vector<std::vector<int>> groups = faces_of_same_vertices(r_.triangles);
+    if (groups.empty()) return;
     // With junctions, flaps may be two walls that come together, of which one stays.
     if (!options_.keep_junctions) {
-      if (drop_flaps(order)) order = ordered_by_vertices();
+      if (drop_flaps(groups)) groups = faces_of_same_vertices(r_.triangles);
       if (separate_solids()) return;
     }
-    std::vector<char> duplicate(order.size(), 0);
-    for (size_t i = 1; i < order.size(); ++i) duplicate[order[i]] = are_same(order[i], order[i - 1]);
+    std::vector<char> is_duplicate(r_.triangles.size(), 0);
+    for (const std::vector<int>& group : groups)
+      for (size_t i = 1; i < group.size(); ++i) is_duplicate[group[i]] = 1;
     drop_faces("duplicate_faces_dropped", "faces dropped whose vertices another face has",
-               [&](int f) { return duplicate[f] != 0; });
+               [&](int f) { return is_duplicate[f] != 0; });
   }
 
-  /// Returns whether there are any.
-  bool drop_flaps(const std::vector<int>& order) {
+  /// Of faces back to back those with nothing between them, because they are too thin, or because they
+  /// bounded one body before it was welded: others may be the wall between two bodies, or the sides of a
+  /// sheet. Returns whether there are any.
+  bool drop_flaps(const std::vector<std::vector<int>>& groups) {
     constexpr double rounding = 10 * rounding_share;
     const double thin = rounding * box_of_faces(r_.points, r_.triangles).diagonal().norm();
-    std::vector<std::array<int, 2>> pairs;
-    for (size_t begin = 0, end = 0; begin < order.size(); begin = end) {
-      while (end < order.size() && have_same_vertices(order[begin], order[end])) ++end;
-      if (end - begin != 2) continue;
-      const int f = order[begin], g = order[begin + 1];
-      if (!have_same_direction(r_.triangles[f], r_.triangles[g]) && encloses_nothing(f, g, thin))
-        pairs.push_back({f, g});
-    }
+    std::vector<int> bodies;
+    const auto were_one_body = [&](int f, int g) {
+      if (unwelded_.empty()) return false;
+      if (bodies.empty()) bodies = bodies_of(unwelded_, r_.points.cols());
+      const int first = r_.origin.face[f], second = r_.origin.face[g];
+      return bodies[first] >= 0 && bodies[first] == bodies[second] &&
+             !std::ranges::is_permutation(unwelded_[first], unwelded_[second]);
+    };
+    std::vector<std::array<int, 2>> pairs = faces_back_to_back(r_.triangles, groups);
+    std::erase_if(pairs, [&](const std::array<int, 2>& pair) {
+      return height_of(r_.points, r_.triangles[pair[0]]) > thin && !were_one_body(pair[0], pair[1]);
+    });
     const std::vector<int> flaps = find_flaps(r_.triangles, pairs);
     drop_faces("flaps_dropped", "faces dropped that lie back to back with nothing between them",
                [&](int f) { return std::ranges::binary_search(flaps, f); });
@@ -510,34 +443,6 @@ class Repair {
     r_.triangles = std::move(sheets.triangles);
   }
 
-  static std::uint64_t key(int a, int b) {
-    return static_cast<std::uint64_t>(std::min(a, b)) << 32 | static_cast<std::uint32_t>(std::max(a, b));
-  }
-
-  struct Boundary {
-    std::vector<int> next;  // the vertex after each on its boundary, as a face has them; -1 off boundaries
-    std::vector<int> face;  // with the edge to the next
-    std::unordered_set<std::uint64_t> edges;  // all edges of the mesh
-  };
-
-  Boundary find_boundary() const {
-    Boundary b;
-    b.next.assign(r_.origin.vertex.size(), -1);
-    b.face.assign(r_.origin.vertex.size(), -1);
-    std::unordered_set<std::uint64_t> twice;
-    for (const Triangle& t : r_.triangles)
-      for (size_t k = 0; k < 3; ++k)
-        if (!b.edges.insert(key(t[k], t[(k + 1) % 3])).second) twice.insert(key(t[k], t[(k + 1) % 3]));
-    for (size_t f = 0; f < r_.triangles.size(); ++f)
-      for (size_t k = 0; k < 3; ++k) {
-        const int from = r_.triangles[f][k], to = r_.triangles[f][(k + 1) % 3];
-        if (twice.contains(key(from, to))) continue;
-        b.next[from] = to;
-        b.face[from] = static_cast<int>(f);
-      }
-    return b;
-  }
-
   /// Marks the vertices where sheets meet that are kept; empty if none are.
   std::vector<char> at_junctions() const {
     if (!options_.keep_junctions) return {};
@@ -552,7 +457,7 @@ class Repair {
   /// Holes that end at junctions are left, as it is not known which boundary goes on there.
   void fill_holes() {
     if (options_.fill_holes <= 0) return;
-    Boundary boundary = find_boundary();
+    Boundary boundary = find_boundary(r_.triangles, r_.origin.vertex.size());
     const std::vector<char> junction = at_junctions();
     std::vector<char> seen(boundary.next.size(), 0);
     std::vector<int> filled, left;  // a vertex of each hole
@@ -585,10 +490,10 @@ class Repair {
     if (loop.size() < 3) return 0;
     std::ranges::reverse(loop);
     const auto triangles =
-        fill_polygon(r_.points, loop, [&](int a, int b) { return boundary.edges.contains(key(a, b)); });
+        fill_polygon(r_.points, loop, [&](int a, int b) { return boundary.edges.contains(edge_key(a, b)); });
     if (!triangles) return 0;
     for (const Triangle& t : *triangles) {
-      for (size_t k = 0; k < 3; ++k) boundary.edges.insert(key(t[k], t[(k + 1) % 3]));
+      for (size_t k = 0; k < 3; ++k) boundary.edges.insert(edge_key(t[k], t[(k + 1) % 3]));
       r_.triangles.push_back(t);
       r_.origin.face.push_back(r_.origin.face[neighbour]);
       r_.origin.flipped.push_back(0);
@@ -606,7 +511,7 @@ class Repair {
 
   std::vector<Component> closed_components() const {
     const std::vector<int> component = components_of(r_.triangles, r_.origin.vertex.size());
-    const Boundary boundary = find_boundary();
+    const Boundary boundary = find_boundary(r_.triangles, r_.origin.vertex.size());
     const std::vector<char> junction = at_junctions();
     std::vector<int> number(component.size(), -1);
     std::vector<Component> found;
@@ -668,9 +573,7 @@ class Repair {
   const RepairOptions& options_;
   const MeshSource& source_;
   Repaired r_;
-  std::vector<Triangle> unwelded_;  // by old face, as it was before all vertices were welded
-  std::vector<int>
-      body_of_unwelded_;  // the closed component of that face, -1 if it is open; both may be empty
+  std::vector<Triangle> unwelded_;  // by old face, as they were before all vertices were welded
 };
 
 }  // namespace

@@ -50,7 +50,7 @@ std::optional<AskedLengths> ShorterLengths::resolving_bends(const Attempt& attem
 std::optional<AskedLengths> ShorterLengths::resolving_walls(const Attempt& attempt, double max_faces) const {
   constexpr double max_share = .2, fine_share = .1, coarser = 16. / 9, least = .1;
   const std::vector<LeftWall> walls = left_walls(maker_, attempt, max_share);
-  if (walls.empty() || are_few(walls.size(), maker_.input().adjacency.faces.size())) return std::nullopt;
+  if (are_few(walls.size(), maker_.input().adjacency.faces.size())) return std::nullopt;
   for (double share = fine_share; share < 2 * max_share; share *= coarser) {
     AskedLengths lengths = attempt.lengths;
     for (const LeftWall& w : walls) {  // chords leave a smooth surface by the square of lengths
