@@ -111,6 +111,11 @@ class AttemptMaker {
   /// Have the known polygons worse angles on the whole than in the input?
   bool has_worse_polygons(const Attempt& attempt) const;
 
+  /// Does it keep its promises, and its polygons?
+  bool keeps_all(const Attempt& attempt) const {
+    return attempt.keeps_promises() && !has_worse_polygons(attempt);
+  }
+
   /// The vertices of the known polygons whose own angles are worse by more than the margin, degrees.
   std::vector<int> vertices_of_worse_polygons(const Attempt& attempt, double margin) const;
 

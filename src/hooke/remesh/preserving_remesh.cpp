@@ -18,6 +18,7 @@
 #include "hooke/remesh/limiting_factors.h"
 #include "hooke/remesh/mending.h"
 #include "hooke/remesh/mirrored_places.h"
+#include "hooke/remesh/put_back.h"
 #include "hooke/remesh/remesh.h"
 #include "hooke/remesh/shell_attempts.h"
 #include "hooke/remesh/shorter_lengths.h"
@@ -65,7 +66,7 @@ class PreservingRemesh {
       note_bends(maker_, best);
       note_walls(maker_, best);
     }
-    if (!maker_.adapts()) leave_what_hardly_moved(best);
+    if (!maker_.adapts()) leave_what_hardly_moved(maker_, best);
     if (!best.lengths.shorter.empty()) best.result.shortened = shorter_.count_in(best);
     if (!maker_.adapts() && vertex_points(best.mesh) == maker_.as_written(vertex_points(maker_.mesh())))
       best.result.steps = MaskSteps::none;
@@ -172,7 +173,7 @@ class PreservingRemesh {
 
   /// Does it keep its promises and its polygons, or, if it is interrupted, all but its least angle?
   bool is_valid(const Attempt& run) const {
-    return run.is_interrupted() ? run.flaws() == 0 && !maker_.has_worse_polygons(run) : keeps_all(run);
+    return run.is_interrupted() ? run.flaws() == 0 && !maker_.has_worse_polygons(run) : maker_.keeps_all(run);
   }
 
   /// A run with the vertices moved to the input that must be; `unmended` receives it as it was before. If
@@ -466,7 +467,7 @@ class PreservingRemesh {
     for (int round = 0; !last.keeps_promises(); ++round) {
       if (options_.connectivity == ConnectivityMode::fixed) {
         Attempt local = last;
-        put_back_around_flaws(local, 8);
+        put_back_around_flaws(maker_, local, 8);
         if (is_done(local)) {
           if (local.is_better_than(best)) best = std::move(local);
           break;
@@ -505,30 +506,6 @@ class PreservingRemesh {
     return run;
   }
 
-  /// Vertices that moved by rounding only are where they were.
-  void leave_what_hardly_moved(Attempt& best) const {
-    const double rounding = 4 * std::numeric_limits<double>::epsilon() * input_.extent.diagonal;
-    auto points = vertex_points(best.mesh);
-    const Mat3X before = maker_.as_written(vertex_points(maker_.mesh()));
-    for (Eigen::Index v = 0; v < points.cols(); ++v)
-      if ((points.col(v) - before.col(v)).norm() <= rounding) points.col(v) = before.col(v);
-  }
-
-  /// Does it keep its promises, and its polygons?
-  bool keeps_all(const Attempt& run) const { return run.keeps_promises() && !maker_.has_worse_polygons(run); }
-
-  /// Puts vertices back to where they were, ring by ring around what is wrong, until nothing is.
-  void put_back_around_flaws(Attempt& best, int max_rings) const {
-    for (int rings = 1; rings <= max_rings && !keeps_all(best); rings *= 2) {
-      best.result.rescue = Rescue::put_back;
-      const double margin = rings <= 2 ? 2 : 0;  // degrees; clearly worse polygons first
-      move_back(best,
-                best.keeps_promises() ? maker_.vertices_of_worse_polygons(best, margin)
-                                      : vertices_to_put_back(maker_, best),
-                rings);
-    }
-  }
-
   /// Keeps faces, then puts vertices back around what is still wrong; a result with other faces is replaced
   /// by one with those of the input first.
   void put_back(Attempt& best) {
@@ -537,7 +514,7 @@ class PreservingRemesh {
     const bool is_worse = has_worse_faces(best);
     if (is_worse && may_take_lengths() && !best.is_interrupted()) return;  // these come first
     if (!is_worse && !best.is_interrupted() && !maker_.smooths_mask()) keep_faces(best, best);
-    put_back_around_flaws(best, 16);
+    put_back_around_flaws(maker_, best, 16);
   }
 
   /// In mode `flip`, replaces the result by one with the faces of the input.
@@ -556,10 +533,7 @@ class PreservingRemesh {
   void leave_as_it_was(Attempt& best) {
     with_faces_of_input(best);
     if (!best.result.measures) return;  // not finite
-    std::vector<int> all(input_.adjacency.vertex_count);
-    std::iota(all.begin(), all.end(), 0);
-    best.result.rescue = Rescue::put_back;
-    move_back(best, all, 1);
+    put_all_back(maker_, best);
     if (maker_.smooths_mask()) best.result.creases.dropped = 0;
   }
 
@@ -585,7 +559,7 @@ class PreservingRemesh {
     maker_.lengths = {lengths_of_input(), {}};
     Attempt next = was_done ? attempt() : best_with_lengths();
     if (was_done && next.result.measures && !next.is_interrupted()) {
-      if (options_.connectivity == ConnectivityMode::fixed) put_back_around_flaws(next, few_rings);
+      if (options_.connectivity == ConnectivityMode::fixed) put_back_around_flaws(maker_, next, few_rings);
       take_back_slivers(maker_, next);
     }
     if (next.is_interrupted() && !was_done) best.result.reason = StopReason::interrupted;
@@ -607,33 +581,6 @@ class PreservingRemesh {
                  natural = resolve_length({}, points, c);
     const Sizing sizing{input_lengths(points, c), std::numeric_limits<double>::infinity()};
     return resolve_vertex_lengths({LengthSpec::Kind::times_natural, length / natural}, sizing, points, c);
-  }
-
-  /// Moves the vertices to their places in the input, and those within `rings` rings around them the less,
-  /// the farther away they are; not those at junctions, which might leave their curves.
-  void move_back(Attempt& run, const std::vector<int>& vertices, int rings) const {
-    const auto points = vertex_points(run.mesh);
-    const auto input = vertex_points(maker_.mesh());
-    const Adjacency& c = input_.adjacency;
-    std::vector<int> ring(c.vertex_count, rings), front = maker_.with_copies(vertices);
-    std::vector<char> at_junction(c.vertex_count, 0);
-    for (int v : find_junctions(c, input_.joined).vertices) at_junction[v] = 1;
-    for (int v : front) ring[v] = 0;
-    for (size_t i = 0; i < front.size(); ++i)
-      for (int n : c.vertex_neighbours[front[i]]) {
-        const int next = ring[front[i]] + 1;
-        if (next >= ring[n]) continue;
-        ring[n] = next;
-        front.push_back(n);
-      }
-    for (int v : front) {
-      const int id = maker_.id_of(v);
-      const double share = static_cast<double>(ring[v]) / rings;
-      if (share > 0 && at_junction[v]) continue;
-      if (share == 0) run.result.vertex_limits[id] |= VertexLimit::put_back;
-      maker_.place(v, input.col(id) + share * (points.col(id) - input.col(id)), run);
-    }
-    maker_.judge(run);
   }
 
   AttemptMaker& maker_;
