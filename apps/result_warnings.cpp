@@ -43,9 +43,9 @@ void warn_of_time(const Settings& s, RunRecord& run) {
 
 void warn_of_folds(RunRecord& run) {
   std::vector<int> folded = folded_faces(run);
-  const bool is_unmoved = run.connectivity == ConnectivityMode::fixed && run.deviation->displacement &&
-                          run.deviation->displacement->max == 0;
-  if (folded.empty() || is_unmoved) return;
+  const bool is_unchanged =
+      run.result->flips.flips == 0 && run.deviation->displacement && run.deviation->displacement->max == 0;
+  if (folded.empty() || is_unchanged) return;
   constexpr size_t max_listed = 10;
   const size_t count = folded.size();
   folded.resize(std::min(count, max_listed));
