@@ -96,3 +96,29 @@ def irregular_torus(around, across, seed=1):
             c, d = (i + 1) % around * across + (j + 1) % across, i * across + (j + 1) % across
             faces += [(a, b, c), (a, c, d)] if rng.random() < .5 else [(a, b, d), (b, c, d)]
     return vertices, faces
+
+
+def ply_text(names, vertices, faces, data):
+    """An ASCII PLY file whose vertices have values of these names."""
+    lines = ["ply", "format ascii 1.0", "element vertex %d" % len(vertices)]
+    lines += ["property double " + name for name in ("x", "y", "z", *names)]
+    lines += ["element face %d" % len(faces), "property list uchar int vertex_indices", "end_header"]
+    lines += [" ".join("%r" % x for x in (*v, *d)) for v, d in zip(vertices, data)]
+    return "\n".join(lines + ["3 %d %d %d" % f for f in faces]) + "\n"
+
+
+def rows_of(path):
+    """What stands on each vertex line after the coordinates, in OBJ what stands on the lines vt and vn."""
+    lines = [line.split() for line in path.read_text().splitlines()]
+    if path.suffix == ".obj":
+        columns = [[line[1:] for line in lines if line[0] == word] for word in ("vt", "vn")]
+        rows = [sum(row, []) for row in zip(*[c for c in columns if c])]
+        corners = [corner.split("/") for line in lines if line[0] == "f" for corner in line[1:]]
+        assert all(len(set(corner) - {""}) == 1 for corner in corners), "a corner with several numbers"
+    elif path.suffix == ".off":
+        rows = [line[3:] for line in lines[2:2 + int(lines[1][0])]]
+    else:
+        count = next(int(line[2]) for line in lines if line[:2] == ["element", "vertex"])
+        body = lines.index(["end_header"]) + 1
+        rows = [line[3:] for line in lines[body:body + count]]
+    return [tuple(map(float, row)) for row in rows]

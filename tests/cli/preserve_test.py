@@ -115,6 +115,25 @@ class Preserve(CommandTest):
                 self.assertTrue(output == data)
                 self.assertEqual(report["output"]["sha256"], report["input"]["sha256"])
 
+    def test_a_box_of_squares_has_no_digit_to_change(self):
+        n, size = 4, 1.9
+        ids, faces = {}, []
+        for axis in range(3):
+            for side in (0, n):
+                for i in range(n):
+                    for j in range(n):
+                        square = []
+                        for a, b in ((i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)):
+                            place = [side] * 3
+                            place[(axis + 1) % 3], place[(axis + 2) % 3] = a, b
+                            square.append(ids.setdefault(tuple(place), len(ids) + 1))
+                        faces.append(square if side else square[::-1])
+        lines = ["v %r %r %r" % tuple(size * c / n for c in place) for place in ids] + ["f %d %d %d %d" % tuple(f) for f in faces]
+        text = "\n".join(lines) + "\n"
+        self.write("box.obj", text)
+        self.run_command("box.obj", "-o", "out.obj", "-q")
+        self.assertEqual((self.folder / "out.obj").read_text(), text)
+
     def test_of_an_artists_file_only_numbers_of_v_and_vn_change(self):
         data = artists_obj()
         self.put("artist.obj", data)

@@ -5,7 +5,7 @@ import random
 import unittest
 from collections import Counter
 
-from command import DATA, TETRAHEDRON, CommandTest, irregular_torus, read_mesh
+from command import DATA, TETRAHEDRON, CommandTest, irregular_torus, ply_text, read_mesh, rows_of
 
 QUIET = ["-q", "--effort", "fast"]
 
@@ -33,13 +33,6 @@ def is_oriented_manifold(faces):
         if len(starts) > 1 or seen != len(link):
             return False
     return True
-
-
-def rows_of_ply(path):
-    """The numbers of each vertex of an ASCII PLY file."""
-    head, _, body = path.read_text().partition("end_header\n")
-    count = next(int(line.split()[2]) for line in head.splitlines() if line.startswith("element vertex"))
-    return [tuple(map(float, line.split())) for line in body.splitlines()[:count]]
 
 
 class Repair(CommandTest):
@@ -223,11 +216,7 @@ class Repair(CommandTest):
         faces += [tuple(v + len(grid) for v in f) for f in faces]
         vertices = [(x + side, y, 0) for side in (0, 1) for x, y in grid]
         values = [values_of(x, y, side) for side in (0, 1) for x, y in grid]
-        lines = ["ply", "format ascii 1.0", "element vertex %d" % len(vertices),
-                 *("property double " + name for name in ("x", "y", "z", *names)),
-                 "element face %d" % len(faces), "property list uchar int vertex_indices", "end_header"]
-        lines += [" ".join("%r" % number for number in (*v, *of)) for v, of in zip(vertices, values)] + ["3 %d %d %d" % f for f in faces]
-        self.write("cut.ply", "\n".join(lines) + "\n")
+        self.write("cut.ply", ply_text(names, vertices, faces, values))
         return values, faces
 
     def warnings_of(self, *arguments):
@@ -256,8 +245,8 @@ class Repair(CommandTest):
                         self.assertEqual([tuple(map(float, of["vt"][t])) for _, t in corners], [values[v][:2] for v in faces[f]])
             told = self.warnings_of("cut.ply", "-o", "out.ply")
             self.assertRegex(told["texture_seams"], "texture coordinates of 7 vertices that were merged .*; OBJ holds both")
-            kept = rows_of_ply(self.folder / "out.ply")
-            self.assertEqual([row[3:5] for row in kept], [v[:2] for n, v in enumerate(values) if n < 49 or v[0] > 2])
+            kept = rows_of(self.folder / "out.ply")
+            self.assertEqual([row[:2] for row in kept], [v[:2] for n, v in enumerate(values) if n < 49 or v[0] > 2])
 
     def test_values_that_are_equal_are_no_others(self):
         nan = float("nan")
@@ -273,7 +262,7 @@ class Repair(CommandTest):
                 self.assertEqual("merged_values" in told, lost, names)
                 self.assertNotIn("texture_seams", told)
             self.assertNotIn("vt", (self.folder / "out.obj").read_text() if "s" not in names else "")
-            self.assertEqual({len(row) for row in rows_of_ply(self.folder / "out.ply")}, {3 + len(names)})
+            self.assertEqual({len(row) for row in rows_of(self.folder / "out.ply")}, {len(names)})
 
     def test_a_mesh_that_is_inside_out_is_named(self):
         inside_out = TETRAHEDRON.replace("f 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4", "f 1 2 3\nf 1 4 2\nf 2 4 3\nf 3 4 1")
