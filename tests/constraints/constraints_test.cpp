@@ -279,6 +279,26 @@ TEST(Constraints, AnEvenCreaseKeepsItsVerticesAtBends) {
   EXPECT_EQ(count_of(uneven, Freedom::curve), 80);
 }
 
+TEST(Constraints, LinesOfRoundedEdgesHaveNoCornersButWhereTheyEndOrMeet) {
+  const test::Triangles t = test::grid(6, test::flat);
+  Adjacency c = test::connect(t);
+  std::vector<Edge> stairs;
+  for (const int v : {15, 23, 31}) {  // 7 vertices a row
+    stairs.push_back({v, v + 1});
+    stairs.push_back({v + 1, v + 8});
+  }
+  split_wedges(c, stairs);
+  ConstraintOptions options{.boundary = BoundaryRule::free};
+  EXPECT_EQ(count_of(find_constraints(t.points, c, options), Freedom::fixed), 7);
+  options.rounded_edges = stairs;
+  const Constraints smooth = find_constraints(t.points, c, options);
+  EXPECT_EQ(count_of(smooth, Freedom::fixed), 2);
+  EXPECT_EQ(count_of(smooth, Freedom::curve), 5);
+  EXPECT_EQ(smooth.curves.size(), 1u);
+  options.rounded_edges.pop_back();  // a vertex of another line beside it
+  EXPECT_EQ(count_of(find_constraints(t.points, c, options), Freedom::fixed), 3);
+}
+
 TEST(Constraints, OnStraightCreasesVerticesSlide) {
   const Constraints c = creased(test::step_block(3));
   EXPECT_EQ(count_of(c, Freedom::fixed), 12);

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <map>
+#include <numbers>
 #include <set>
 
 #include "hooke/mesh/adjacency.h"
@@ -62,6 +63,25 @@ inline Triangles cells(int nx, int ny, int nz, const std::function<bool(int, int
 inline Triangles irregular_cube(int n, unsigned seed = 1) {
   return cells(
       n, n, n, [](int, int, int) { return true; }, .3, seed);
+}
+
+/// A box around the origin, half so large as `half`, with edges that are rounded by the radius in 2 `steps`
+/// facets, and no vertices within its flat sides.
+inline Triangles rounded_box(const Vec3& half, double radius, int steps) {
+  const int n = 2 * steps + 1;
+  Triangles t = cells(
+      n, n, n, [](int, int, int) { return true; }, 0);
+  for (auto x : t.points.colwise()) {
+    Vec3 centre, direction;
+    for (int k = 0; k < 3; ++k) {
+      const bool is_low = x[k] <= steps;
+      const double turn = (is_low ? x[k] - steps : x[k] - steps - 1) / steps;  // -1 to 1
+      centre[k] = (is_low ? -1 : 1) * (half[k] - radius);
+      direction[k] = std::tan(turn * std::numbers::pi / 4);
+    }
+    x = centre + radius * direction.normalized();
+  }
+  return t;
 }
 
 /// A block of 2 m x m x 2 m with one quarter missing: a step.

@@ -21,6 +21,9 @@ struct ConstraintOptions {
   std::vector<int> frozen_vertices = {};
   /// Edges to be kept as creases are, though the surface is smooth across them: pairs of vertex ids.
   std::vector<Edge> seams = {};
+  /// Edges to be kept likewise along rounded edges, in lines that have corners only where lines end or meet:
+  /// pairs of vertex ids, sorted, smaller one first.
+  std::vector<Edge> rounded_edges = {};
   /// Boundary edges and creases of junctions, which have curves of their own: pairs of vertex ids, sorted,
   /// smaller one first. Their ends must be among `fixed_vertices`.
   std::vector<Edge> junction_edges = {};

@@ -34,6 +34,11 @@ bool is_corner(const Mat3X& points, int before, int at, int after, double cos_co
   return turns(points.col(before), points.col(at), points.col(after), cos_corner);
 }
 
+/// Is it one of the lines along rounded edges?
+bool is_rounded(const Edge& e, const ConstraintOptions& options) {
+  return std::ranges::binary_search(options.rounded_edges, Edge{std::min(e[0], e[1]), std::max(e[0], e[1])});
+}
+
 /// Adds a curve through the vertices, along which those that are not fixed slide.
 void add_curve(const Mat3X& points, const std::vector<int>& vertices, bool closed, Constraints& result) {
   for (size_t i = 0; i < vertices.size(); ++i) {
@@ -109,7 +114,9 @@ class CreaseTracer {
         boundary |= c.is_boundary_edge(e);
       }
       if (ends.empty()) continue;
-      breaks[v] |= boundary || ends.size() != 2 || is_corner(points, ends[0], v, ends[1], cos_corner);
+      breaks[v] |= boundary || ends.size() != 2 ||
+                   (!(is_rounded({v, ends[0]}, options) && is_rounded({v, ends[1]}, options)) &&
+                    is_corner(points, ends[0], v, ends[1], cos_corner));
     }
     return breaks;
   }
@@ -131,6 +138,7 @@ class CreaseTracer {
   void add_crease(const std::vector<int>& vertices, bool closed) {
     add_curve(points_, vertices, closed, result_);
     ++result_.crease_curves;
+    if (is_rounded({vertices[0], vertices[1]}, options_)) return;
     // Sliding past a bend of an even crease cuts it off and gains nothing.
     for (const int i : bends_of_even_curve(result_.curves.back(), options_.even_crease))
       result_.freedom[vertices[i]] = Freedom::fixed;

@@ -158,11 +158,15 @@ std::vector<Bend> unresolved_bends(const AttemptMaker& maker, const Attempt& att
   return unresolved;
 }
 
-void note_bends(const AttemptMaker& maker, Attempt& attempt) {
+std::vector<Bend> sharp_bends(const AttemptMaker& maker, const Attempt& attempt) {
   constexpr double sharp = 60, smooth = 40;  // degrees: of a hexagon and a nonagon
+  return unresolved_bends(maker, attempt, sharp, smooth);
+}
+
+void note_bends(const AttemptMaker& maker, Attempt& attempt) {
   RemeshResult& result = attempt.result;
   if (!result.measures || attempt.is_interrupted() || result.rescue == Rescue::put_back) return;
-  for (const Bend& bend : unresolved_bends(maker, attempt, sharp, smooth)) {
+  for (const Bend& bend : sharp_bends(maker, attempt)) {
     ++result.sharp_bends;
     if (bend.angle <= result.sharpest_bend) continue;
     result.sharpest_bend = bend.angle;

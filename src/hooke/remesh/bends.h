@@ -25,7 +25,10 @@ struct Bend {
 std::vector<Bend> unresolved_bends(const AttemptMaker& maker, const Attempt& attempt, double max_bend,
                                    double smooth = 180);
 
-/// Notes in the result the bends by more than 60 degrees where the input bends by less than 40 or half.
+/// The bends by more than 60 degrees where the input bends by less than 40 or half.
+std::vector<Bend> sharp_bends(const AttemptMaker& maker, const Attempt& attempt);
+
+/// Notes these in the result.
 void note_bends(const AttemptMaker& maker, Attempt& attempt);
 
 }  // namespace hooke

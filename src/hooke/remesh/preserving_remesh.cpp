@@ -12,7 +12,7 @@
 #include "hooke/mesh/mesh.h"
 #include "hooke/mesh/normals.h"
 #include "hooke/remesh/attempts.h"
-#include "hooke/remesh/bends.h"
+#include "hooke/remesh/details.h"
 #include "hooke/remesh/flaws.h"
 #include "hooke/remesh/kept_faces.h"
 #include "hooke/remesh/limiting_factors.h"
@@ -22,7 +22,6 @@
 #include "hooke/remesh/remesh.h"
 #include "hooke/remesh/shell_attempts.h"
 #include "hooke/remesh/shorter_lengths.h"
-#include "hooke/remesh/walls.h"
 #include "hooke/springs/sizing.h"
 #include "hooke/springs/target_lengths.h"
 
@@ -58,14 +57,13 @@ class PreservingRemesh {
     if (may_take_lengths() && !best.is_interrupted() && (!is_done(best) || has_many_slivers(best)))
       take_lengths_of_input(start, best);
     if (!is_done(best)) leave_as_it_was(best);
-    resolve_details(start, best);
+    if (!is_of_part())
+      resolve_details(
+          maker_, shorter_, start, [this] { return attempt(); }, best);
     if (best.result.rescue == Rescue::put_back || best.result.rescue == Rescue::kept_faces)
       best.result.refused_distance = refused_distance_;
     if (!is_of_part()) keep_mirrors(maker_, asked_, start.constraints, best);
-    if (!is_of_part()) {
-      note_bends(maker_, best);
-      note_walls(maker_, best);
-    }
+    if (!is_of_part()) note_lost_details(maker_, best);
     if (!maker_.adapts()) leave_what_hardly_moved(maker_, best);
     if (!best.lengths.shorter.empty()) best.result.shortened = shorter_.count_in(best);
     if (!maker_.adapts() && vertex_points(best.mesh) == maker_.as_written(vertex_points(maker_.mesh())))
@@ -332,55 +330,6 @@ class PreservingRemesh {
       if (projects) next.result.rescue = Rescue::closest;
       return next;
     });
-  }
-
-  /// In mode `adapt`, where the facets of the input are meant, as in CAD parts: shortens the lengths of a
-  /// result that keeps its promises where smooth parts bend too much within an edge, as rods and fillets that
-  /// are thin for the length, then where walls or gaps do not keep their thickness, and keeps it each time if
-  /// it is closer to the input for that.
-  void resolve_details(const RemeshOptions& start, Attempt& best) {
-    constexpr double growth = 3, growth_of_few = 10, few = 2000;  // of the number that the lengths ask for
-    const double asked = shorter_.faces_of({asked_, {}}, std::numeric_limits<double>::infinity());
-    const auto resolve = [&](const auto resolving, double max_faces) {
-      if (!may_resolve_details(best)) return;
-      std::optional<AskedLengths> shorter = (shorter_.*resolving)(best, max_faces);
-      if (!shorter) return;
-      maker_.lengths = std::move(*shorter);
-      options_ = start;
-      Attempt next = attempt();
-      if (next.is_interrupted())
-        best.result.reason = StopReason::interrupted;
-      else if (next.keeps_promises() && is_closer(next, best))
-        best = std::move(next);
-    };
-    resolve(&ShorterLengths::resolving_bends, growth * asked);
-    resolve(&ShorterLengths::resolving_walls, std::max(growth * asked, std::min(growth_of_few * asked, few)));
-  }
-
-  bool may_resolve_details(const Attempt& run) const {
-    return maker_.adapts() && maker_.has_facets() && !maker_.has_tolerance() && !maker_.smooths_mask() &&
-           !is_of_part() && !run.is_interrupted() && run.keeps_promises() &&
-           (run.result.rescue == Rescue::none || run.result.rescue == Rescue::closest);
-  }
-
-  /// Is a result closer to the input than the other on average and nowhere clearly farther, do no more faces
-  /// lie against the surface, and are its angles hardly smaller?
-  static bool is_closer(const Attempt& run, const Attempt& other) {
-    constexpr double more_distance = 1.05, more_small_angles = .001;  // of all faces
-    constexpr double good_angle = 25, kept_share = .8;
-    const Deviation &now = run.result.measures->deviation, &before = other.result.measures->deviation;
-    const auto greatest = [](const Deviation& d) {
-      return std::max(d.to_reference.max, d.from_reference.max);
-    };
-    const auto mean = [](const Deviation& d) { return std::max(d.to_reference.rms, d.from_reference.rms); };
-    const auto small_angles = [](const Attempt& a) {
-      return static_cast<double>(a.result.measures->quality.faces_below_20) /
-             static_cast<double>(a.mesh.n_faces());
-    };
-    return mean(now) < mean(before) && greatest(now) <= more_distance * greatest(before) &&
-           now.opposing_faces.size() <= before.opposing_faces.size() &&
-           small_angles(run) <= small_angles(other) + more_small_angles &&
-           run.angle >= std::min(good_angle, kept_share * other.angle);
   }
 
   /// Where little is wrong with a result, goes on from it with shorter lengths there. If that does not do,

@@ -8,6 +8,7 @@
 #include "hooke/mesh/mesh.h"
 #include "hooke/remesh/attempts.h"
 #include "hooke/remesh/flaws.h"
+#include "hooke/remesh/limiting_factors.h"
 
 namespace hooke {
 namespace {

@@ -148,7 +148,7 @@ void share_constraints(const ConstraintOptions& whole, const std::vector<int>& p
                        const std::vector<int>& id, std::vector<PartOfMesh>& parts) {
   const auto vertex_lists = {&ConstraintOptions::fixed_vertices, &ConstraintOptions::frozen_vertices};
   const auto edge_lists = {&ConstraintOptions::seams, &ConstraintOptions::junction_edges,
-                           &ConstraintOptions::hard_edges};
+                           &ConstraintOptions::hard_edges, &ConstraintOptions::rounded_edges};
   ConstraintOptions of_each = whole;
   for (const auto list : vertex_lists) (of_each.*list).clear();
   for (const auto list : edge_lists) (of_each.*list).clear();

@@ -98,6 +98,23 @@ void ShorterLengths::shorten_at(const std::vector<FlawPlace>& flaws, const Attem
   lengths.shorter.insert(lengths.shorter.end(), shorter.begin(), shorter.end());
 }
 
+std::vector<double> ShorterLengths::at_edges(const AskedLengths& lengths) const {
+  constexpr int max_pieces = 8;
+  const Mat3X& points = maker_.input().points;
+  const PlacedLengths places = placed(lengths);
+  std::vector<double> at;
+  for (const auto& [a, b] : maker_.input().adjacency.edges) {
+    const Vec3 from = points.col(a), to = points.col(b);
+    const double asked = std::min(lengths.of_vertices[a], lengths.of_vertices[b]);
+    const int pieces = std::clamp(static_cast<int>(2 * (to - from).norm() / asked), 2, max_pieces);
+    double longest = 0;
+    for (int i = 1; i < pieces; ++i)
+      longest = std::max(longest, places.length_at(from + i * (to - from) / pieces, asked));
+    at.push_back(longest);
+  }
+  return at;
+}
+
 int ShorterLengths::count_in(const Attempt& run) const {
   constexpr double clearly = .8, moved = 1.1;  // since they were sampled
   const std::vector<double> lengths = vertex_values(run.mesh, target_length_property);

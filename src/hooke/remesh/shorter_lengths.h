@@ -36,6 +36,9 @@ class ShorterLengths {
   /// The number of faces that these lengths take, or more than `enough`.
   double faces_of(const AskedLengths& lengths, double enough) const;
 
+  /// These lengths at the edges of the input: the longest along each.
+  std::vector<double> at_edges(const AskedLengths& lengths) const;
+
   /// At how many vertices of a result it is places that made the lengths clearly shorter.
   int count_in(const Attempt& run) const;
 

@@ -90,6 +90,8 @@ Workspace::Workspace(const TriMesh& source, MemoryOrder memory_order,
   const std::vector<int> joined = joined_vertices(source, order);
   const Junctions junctions = find_junctions(*memory_order.adjacency, joined);
   std::vector<Edge> seams = order.new_edges(constraint_options.seams);
+  std::vector<Edge> rounded = order.new_edges(constraint_options.rounded_edges);
+  seams.insert(seams.end(), rounded.begin(), rounded.end());
   append_inner(junctions.edges, *memory_order.adjacency, seams);
   if (!seams.empty()) {
     sharp_ = creases;
@@ -118,6 +120,9 @@ Workspace::Workspace(const TriMesh& source, MemoryOrder memory_order,
   held.insert(held.end(), reordered.frozen_vertices.begin(), reordered.frozen_vertices.end());
   fixed.insert(fixed.end(), junctions.vertices.begin(), junctions.vertices.end());
   reordered.junction_edges = junctions.edges;
+  for (Edge& e : rounded) std::ranges::sort(e);
+  std::ranges::sort(rounded);
+  reordered.rounded_edges = std::move(rounded);
   if (has_varying_lengths()) reordered.even_crease = 0;  // even edges are not wanted there
   vertices.constraints =
       timed(stopwatch, "constraints", [&] { return find_constraints(*start, *adjacency, reordered); });
