@@ -25,6 +25,15 @@ std::string with_share(double distance, const RunRecord& run) {
   return fmt::format("{:.4g} ({:.2g} % of the size)", distance, 100 * distance / run.deviation->diagonal);
 }
 
+/// The coordinates, to about a millionth of the size or better.
+std::string place(const Vec3& x, const RunRecord& run) {
+  constexpr double digits = 6, most = 17;
+  const double far = x.cwiseAbs().maxCoeff() / run.before.extent.diagonal;
+  const int precision =
+      static_cast<int>(far > 1 ? std::min(digits + std::ceil(std::log10(far)), most) : digits);
+  return fmt::format("{:.{}g} {:.{}g} {:.{}g}", x[0], precision, x[1], precision, x[2], precision);
+}
+
 /// Empty for meshes without a volume.
 std::string volume_change(const RunRecord& run) {
   const std::optional<double>& change = run.deviation->volume_change;
@@ -112,11 +121,11 @@ void warn_of_bends(const Settings& s, RunRecord& run) {
   if (result.sharp_bends <= std::max(at_least, few * 1.5 * run.after->topology.faces)) return;
   run.warnings.push_back(
       {"sharp_bends",
-       fmt::format("{}: {} edges turn by more than 60 degrees, up to {:.0f} near {:.6g}, where "
+       fmt::format("{}: {} edges turn by more than 60 degrees, up to {:.0f} near {}, where "
                    "{} bends less: narrow or sharply curved parts are coarser there; {}a smaller "
                    "--length follows them",
                    run.output->path, result.sharp_bends, result.sharpest_bend,
-                   fmt::join(result.sharpest_place, " "), run.input.path,
+                   place(result.sharpest_place, run), run.input.path,
                    is_sized ? "" : "--sizing curvature, which makes edges shorter there, or ")});
 }
 
@@ -146,16 +155,15 @@ void warn_of_walls(const Settings& s, RunRecord& run) {
   };
   run.warnings.push_back(
       {"thin_walls", fmt::format("{}: walls or gaps are not as thick as in {}: where one is {:.3g}, near "
-                                 "{:.6g}, a side is {:.3g} off; {} keeps them better",
+                                 "{}, a side is {:.3g} off; {} keeps them better",
                                  run.output->path, run.input.path, result.thickness,
-                                 fmt::join(result.thin_place, " "), result.lost_thickness, remedy())});
+                                 place(result.thin_place, run), result.lost_thickness, remedy())});
 }
 
 void warn_of_count(RunRecord& run) {
   const AdaptResult& adapted = run.result->adaptation;
   if (run.result->reason == StopReason::interrupted) return;  // adaptation may be incomplete
-  // Another warning tells that.
-  if (run.result->shortened > 0 || run.result->rescue == Rescue::kept_faces) return;
+  if (run.result->rescue == Rescue::kept_faces) return;       // another warning tells that
   const double faces = run.after->topology.faces, expected = adapted.target_faces;
   if (adapted.rounds > 0 && std::abs(faces - expected) > (1 + 1e-9) * std::max(3., .03 * expected))
     run.warnings.push_back(
@@ -218,12 +226,11 @@ std::string what_is_broken(const RunRecord& run) {
   if (!run.result->measures || run.result->measures->preservation.holds()) return "";
   const Preservation& p = run.result->measures->preservation;
   std::vector<std::string> broken;
-  const std::string place = fmt::format("{:.6g} {:.6g} {:.6g}", p.place[0], p.place[1], p.place[2]);
-  const std::string at = p.excess > 1 ? "" : ", one at " + place;
+  const std::string where = place(p.place, run), at = p.excess > 1 ? "" : ", one at " + where;
   if (!p.topology_kept) broken.push_back(topology_change(run.before.topology, run.after->topology));
   if (!p.far_vertices.empty() || !p.lost_vertices.empty() || !p.within_max_distance)
     broken.push_back(fmt::format("the surface would be {} from that of {} at {}{}",
-                                 with_share(p.distance, run), run.input.path, place, volume_change(run)));
+                                 with_share(p.distance, run), run.input.path, where, volume_change(run)));
   if (!p.creases_kept)
     broken.push_back(fmt::format("sharp edges would be lost, up to {:.4g} away{}", p.crease_loss,
                                  p.flipped_faces + p.new_crossings + p.new_degenerate_faces == 0 ? at : ""));
@@ -304,9 +311,24 @@ void warn_of_shortening(RunRecord& run) {
     run.warnings.push_back(
         {"lengths_shortened",
          fmt::format(
-             "{}: {} faces, as edges at {} of its {} vertices are shorter than asked; longer ones would not "
-             "keep the surface there; a smaller --length makes all edges alike",
-             run.output->path, run.after->topology.faces, count, run.after->topology.vertices)});
+             "{}: edges at {} of its {} vertices are shorter than asked, as longer ones would not keep the "
+             "surface there; a smaller --length makes all edges alike",
+             run.output->path, count, run.after->topology.vertices)});
+}
+
+/// Warns if large angles have come with larger small ones, as of needles that became flat triangles.
+void warn_of_large_angles(const Settings& s, RunRecord& run) {
+  constexpr double large = 135, clearly_more = 30;  // degrees
+  const double before = run.before.max_angle.p95, after = run.after->max_angle.p95;
+  if (s.remesh.connectivity == ConnectivityMode::adapt || after < std::max(large, before + clearly_more))
+    return;
+  const char* better = s.remesh.connectivity == ConnectivityMode::fixed ? "flip or adapt" : "adapt";
+  run.warnings.push_back(
+      {"large_angles",
+       fmt::format(
+           "{}: a twentieth of its faces has an angle of {:.0f} degrees or more, before it was {:.0f}: "
+           "with these faces narrow ones became flat; --connectivity {} makes others",
+           run.output->path, after, before, better)});
 }
 
 /// Tells that edges are not even, if any have moved.
@@ -546,6 +568,7 @@ void add_result_warnings(const Settings& s, const TriMesh& mesh, RunRecord& run)
   warn_of_rescue(run);
   warn_of_shortening(run);
   warn_of_lengths_of_input(run);
+  warn_of_large_angles(s, run);
   warn_of_held_faces(s, run);
   warn_of_edges_without_length(s, mesh, run);
   warn_of_rounding(s, run);

@@ -3,6 +3,7 @@
 import csv
 import math
 import random
+import re
 import unittest
 
 from command import DATA, CommandTest, irregular_torus, read_mesh, write_off
@@ -84,6 +85,42 @@ class Result(CommandTest):
             self.assertEqual(report["promises"]["shortened_vertices"] > 0, is_short)
             self.assertEqual("lengths_shortened" in codes, is_short, codes)
             self.assertNotIn("face_count_missed", codes)
+
+    def test_large_angles_that_come_for_small_ones_are_named(self):
+        def globe(rings, around):
+            points = [(0, 0, 1)]
+            for k in range(1, rings):
+                r, z = math.sin(math.pi * k / rings), math.cos(math.pi * k / rings)
+                points += [(r * math.cos(2 * math.pi * i / around), r * math.sin(2 * math.pi * i / around), z)
+                           for i in range(around)]
+            points.append((0, 0, -1))
+            at = lambda k, i: 1 + (k - 1) * around + i % around
+            faces = [(0, at(1, i), at(1, i + 1)) for i in range(around)]
+            for k in range(1, rings - 1):
+                faces += [t for i in range(around) for t in ((at(k, i), at(k + 1, i), at(k + 1, i + 1)),
+                                                             (at(k, i), at(k + 1, i + 1), at(k, i + 1)))]
+            return points, faces + [(len(points) - 1, at(rings - 1, i + 1), at(rings - 1, i)) for i in range(around)]
+
+        text = r"a twentieth of its faces has an angle of 1[45]\d degrees or more, before it was 9\d: .*flip or adapt"
+        for mesh, is_told in ((globe(16, 48), True), (irregular_torus(40, 16), False)):
+            write_off(self.folder / "in.off", *mesh)
+            _, errors = self.run_command("in.off", "-o", "out.off", "--connectivity", "fixed")
+            self.assertEqual(bool(re.search(text, errors.replace("\n", " "))), is_told, errors)
+
+    def test_places_far_from_the_origin_are_told_to_the_size_of_edges(self):
+        sides, far = 6, 5.3e6
+        points = [(far + r * math.cos(2 * math.pi * k / 48), r * math.sin(2 * math.pi * k / 48), z)
+                  for z in range(0, 60, 4) for r, k in ((.5, k) for k in range(48))]
+        rows = len(points) // 48
+        faces = [f for j in range(rows - 1) for k in range(48)
+                 for a, b in ((j * 48 + k, j * 48 + (k + 1) % 48),)
+                 for f in ((a, b, b + 48), (a, b + 48, a + 48))]
+        write_off(self.folder / "tube.off", points, faces)
+        _, errors = self.run_command("tube.off", "-o", "out.off", "--connectivity", "adapt", "-L", "1.2")
+        places = re.findall(r"near (-?\d\S*) (-?\d\S*) (-?\d\S*?),? ", errors.replace("\n", " "))
+        self.assertTrue(places, errors)
+        for x, y, z in places:
+            self.assertLess(abs(float(x) - far), 1)
 
     def test_walls_that_are_lost_are_named_with_what_keeps_them(self):
         sides, rows = 48, 6
