@@ -533,6 +533,18 @@ void warn_of_near_boundary(const Mat3X& points, const Adjacency& adjacency, RunR
            run.input.path, count, welding_share)});
 }
 
+void warn_of_cracks(const Settings& s, const Mat3X& points, const Adjacency& adjacency, RunRecord& run) {
+  if (s.remesh.constraints.boundary == BoundaryRule::fixed) return;
+  const std::vector<int> vertices = vertices_at_cracks(points, adjacency);
+  if (vertices.empty()) return;
+  run.warnings.push_back(
+      {"cracks",
+       fmt::format(
+           "{}: {} boundary vertices lie within a hundredth of another boundary edge, as at T-junctions: "
+           "the sides of such a crack slide and may part; --boundary fixed keeps both",
+           run.input.path, vertices.size())});
+}
+
 void warn_of_junctions(const Settings& s, bool has_copies, RunRecord& run) {
   const int edges = run.before.topology.junction_edges;
   if (!has_copies || s.check || (edges > 0 && !s.paper)) return;

@@ -18,6 +18,10 @@ void warn_of_coincident_boundary(const Settings& settings, std::size_t count, Ru
 /// Warns if boundary vertices nearly coincide, within welding_share of the boundary edges there.
 void warn_of_near_boundary(const Mat3X& points, const Adjacency& adjacency, RunRecord& run);
 
+/// Warns if there are cracks in the surface, see vertices_at_cracks(), whose sides may move.
+void warn_of_cracks(const Settings& settings, const Mat3X& points, const Adjacency& adjacency,
+                    RunRecord& run);
+
 /// Warns where all that vertices have copies for stands still: vertices in which sheets only touch, and with
 /// --paper all junctions. Pre-condition: the input was measured.
 void warn_of_junctions(const Settings& settings, bool has_copies, RunRecord& run);

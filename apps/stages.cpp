@@ -190,7 +190,10 @@ void measure_input(Settings& s, const TriMesh& mesh, const MemoryOrder& memory_o
   if (!s.check)
     warn_of_coincident_boundary(s, count_coincident(points, *memory_order.adjacency, original.joined),
                                 record);
-  timed(&stopwatch, "boundary", [&] { warn_of_near_boundary(points, *memory_order.adjacency, record); });
+  timed(&stopwatch, "boundary", [&] {
+    warn_of_near_boundary(points, *memory_order.adjacency, record);
+    warn_of_cracks(s, points, *memory_order.adjacency, record);
+  });
   set_min_length(s, mesh, memory_order, points, record);
   const UniformVector targets = edge_targets(mesh, memory_order);
   record.paper_before =

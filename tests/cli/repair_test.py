@@ -286,6 +286,19 @@ class Repair(CommandTest):
         report, vertices, _ = self.repaired("seam.obj", codes=["vertices_welded"])
         self.assertEqual(len(vertices), n)
 
+    def test_cracks_whose_sides_do_not_match_are_named_with_what_keeps_them(self):
+        def square(n, x):
+            at = lambda i, j: (n + 1) * j + i
+            return ([(x + i / n, j / n, .1 * (j / n) ** 2) for j in range(n + 1) for i in range(n + 1)],
+                    [f for j in range(n) for i in range(n)
+                     for f in ((at(i, j), at(i + 1, j), at(i + 1, j + 1)), (at(i, j), at(i + 1, j + 1), at(i, j + 1)))])
+        (left, faces), (right, others) = square(8, 0), square(16, 1)
+        self.write("crack.obj", obj(left + right, faces + [tuple(v + len(left) for v in f) for f in others]))
+        warned = lambda *options: {w["code"]: w["message"] for w in self.report("crack.obj", *options)["warnings"]}
+        self.assertIn("8 boundary vertices lie within a hundredth of another boundary edge",
+                      warned("-o", "out.obj")["cracks"])
+        self.assertNotIn("cracks", warned("-o", "out.obj", "--boundary", "fixed"))
+
     def test_options_that_need_repair_or_make_no_sense(self):
         for option in (["--drop-components", "1%"], ["--fill-holes", "9"]):
             self.refused(2, "good.obj", "-o", "out.obj", *option, names=option[0], says="--repair only")

@@ -62,4 +62,42 @@ TEST(VertexWelding, OnlyBoundariesReach) {
   for (int v = 0; v < 9; ++v) EXPECT_EQ(reach[v], v == 4 ? -1 : .5 * welding_share);
 }
 
+/// Two unit squares of n x n and m x m cells side by side, with a gap between them.
+test::Triangles squares(int n, int m, double gap) {
+  test::Triangles right = test::grid(m, test::flat);
+  right.points.row(0).array() += 1 + gap;
+  return test::both(test::grid(n, test::flat), right);
+}
+
+TEST(Cracks, AreTJunctionsAndNarrowGaps) {
+  const auto cracks = [](const test::Triangles& t) {
+    return vertices_at_cracks(t.points, test::connect(t)).size();
+  };
+  EXPECT_EQ(cracks(squares(4, 8, 0)), 4u) << "in the middle of the longer edges";
+  EXPECT_EQ(cracks(squares(4, 3, 0)), 3u + 2u);
+  EXPECT_EQ(cracks(squares(4, 4, .002)), 8u) << "both sides, but for two corners at which faces end";
+  EXPECT_EQ(cracks(squares(4, 4, 0)), 0u) << "vertices in the same places";
+  EXPECT_EQ(cracks(squares(4, 4, 1e-5)), 0u) << "vertices that are merged";
+  EXPECT_EQ(cracks(squares(4, 8, .01)), 0u) << "too far";
+  EXPECT_EQ(cracks(test::cube()), 0u);
+}
+
+TEST(Cracks, AreFoundWhicheverWayFacesAreTurned) {
+  test::Triangles t = squares(4, 8, 0);
+  for (size_t f = 0; f < 32; ++f) std::swap(t.faces[f][1], t.faces[f][2]);
+  EXPECT_EQ(vertices_at_cracks(t.points, test::connect(t)).size(), 4u);
+}
+
+TEST(Cracks, AreNotTheSidesOfANarrowStrip) {
+  test::Triangles t = test::grid(4, test::flat);
+  t.points.row(1) *= .005;
+  EXPECT_TRUE(vertices_at_cracks(t.points, test::connect(t)).empty());
+}
+
+TEST(Cracks, AreNotTheShortEdgesOfABoundary) {
+  const test::Triangles t = test::triangles(
+      {{0, 0, 0}, {1, 0, 0}, {1.002, .002, 0}, {1.002, 1, 0}, {.5, 1, 0}}, {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}});
+  EXPECT_TRUE(vertices_at_cracks(t.points, test::connect(t)).empty());
+}
+
 }  // namespace hooke::vertex_welding_test

@@ -9,6 +9,9 @@
 #include <tuple>
 #include <unordered_map>
 
+#include "hooke/geometry/aabb_tree.h"
+#include "hooke/geometry/triangle.h"
+
 namespace hooke {
 namespace {
 
@@ -121,6 +124,47 @@ std::vector<double> reach_of_boundary(const Mat3X& points, const std::vector<Tri
     if (last - edge == 1 && (*edge)[0] != (*edge)[1]) boundary.push_back(*edge);
   }
   return reach_of_edges(points, boundary);
+}
+
+std::vector<int> vertices_at_cracks(const Mat3X& points, const Adjacency& c) {
+  constexpr double crack_share = .01;  // of the length of the edge
+  constexpr double opposed = -.5;      // cosine
+  std::vector<Triangle> segments;
+  std::vector<int> boundary, edges;
+  Mat3X outward = Mat3X::Zero(3, c.vertex_count);  // from the surface, at its boundary vertices
+  std::vector<Vec3> outward_of_edge;
+  double longest = 0;
+  for (std::size_t e = 0; e < c.edges.size(); ++e) {
+    if (!c.is_boundary_edge(static_cast<int>(e))) continue;
+    const auto& [a, b] = c.edges[e];
+    const Vec3 along = points.col(b) - points.col(a);
+    boundary.push_back(a);
+    segments.push_back({a, b, b});
+    edges.push_back(static_cast<int>(e));
+    outward_of_edge.push_back(
+        along.cross(doubled_area_vector(points, c.faces[c.edge_faces[e][0]])).stableNormalized());
+    for (const int v : {a, b}) outward.col(v) += outward_of_edge.back();
+    longest = std::max(longest, along.norm());
+  }
+  std::ranges::sort(boundary);
+  const AabbTree tree(points, segments);
+  ClosestPoint within;
+  within.squared_distance = std::pow(crack_share * longest, 2);
+  std::vector<int> found;
+  for (const int v : boundary) {
+    const Vec3 x = points.col(v), out = outward.col(v).stableNormalized();
+    const auto is_across = [&](int s) {
+      const Vec3 a = points.col(segments[s][0]), b = points.col(segments[s][1]);
+      const double length = (a - b).norm(), merged = welding_share * length;
+      const Triangle& face = c.faces[c.edge_faces[edges[s]][0]];
+      const auto lies_beyond = [&](int w) { return out.dot(points.col(w) - x) > crack_share * length; };
+      return out.dot(outward_of_edge[s]) < opposed && std::ranges::any_of(face, lies_beyond) &&
+             (x - a).norm() > merged && (x - b).norm() > merged &&
+             distance_to_segment(x, a, b) <= crack_share * length;
+    };
+    if (tree.closest(x, is_across, within).face >= 0) found.push_back(v);
+  }
+  return found;
 }
 
 std::vector<Edge> coincident_boundary_pairs(const Mat3X& points, const Adjacency& c) {

@@ -22,6 +22,10 @@ std::vector<double> reach_of_edges(const Mat3X& points, const std::vector<Edge>&
 /// The same for the edges that belong to one triangle only. The triangles may be those of an invalid mesh.
 std::vector<double> reach_of_boundary(const Mat3X& points, const std::vector<Triangle>& triangles);
 
+/// Ascending, the boundary vertices at cracks: within a hundredth of the length of a boundary edge beyond
+/// which the surface goes on, as at T-junctions, and no ends of it even if merged.
+std::vector<int> vertices_at_cracks(const Mat3X& points, const Adjacency& adjacency);
+
 /// Pairs of boundary vertices with exactly the same coordinates, as where a surface is cut open along a
 /// texture seam; each of several in a place with the next.
 std::vector<Edge> coincident_boundary_pairs(const Mat3X& points, const Adjacency& adjacency);
