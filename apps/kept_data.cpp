@@ -284,7 +284,6 @@ void renumber_faces(const std::vector<int>& order, LoadedMesh& loaded, RunRecord
   replace_faces(loaded.mesh, *loaded.memory_order.adjacency, loaded.memory_order.order.old_ids());
   loaded.face_data = gather(loaded.face_data, order);
   loaded.corner_data = gather(loaded.corner_data, order);
-  renumber_all(record.result->folded_faces);
   renumber_all(record.deviation->flipped_faces);
   renumber_all(record.deviation->opposing_faces);
   for (WorstFace& face : record.after->worst_faces) renumber(face.face);

@@ -51,7 +51,7 @@ void warn_of_time(const Settings& s, RunRecord& run) {
 }
 
 void warn_of_folds(RunRecord& run) {
-  std::vector<int> folded = folded_faces(run);
+  std::vector<int> folded = run.deviation->opposing_faces;
   const bool is_unchanged =
       run.result->flips.flips == 0 && run.deviation->displacement && run.deviation->displacement->max == 0;
   if (folded.empty() || is_unchanged) return;
@@ -67,6 +67,19 @@ void warn_of_folds(RunRecord& run) {
            count > max_listed ? " ..." : "")});
 }
 
+/// Tells of faces that look down in a terrain.
+void warn_of_overhangs(const Settings& s, RunRecord& run) {
+  const int count = run.deviation->overhangs;
+  if (count == 0) return;
+  const bool is_closest = s.remesh.filter.kind == FilterKind::closest;
+  run.warnings.push_back(
+      {"overhangs",
+       fmt::format(
+           "{}: {} of its faces look down, where all of {} look up (or so along another axis): steep places "
+           "lean over; {}--feature-noise off, which keeps edges there, may have fewer",
+           run.output->path, count, run.input.path, is_closest ? "" : "--filter closest or ")});
+}
+
 void warn_of_crossings(RunRecord& run) {
   const size_t crossings = run.after->self_intersections.value_or(0),
                before = run.before.self_intersections.value_or(0);
@@ -80,10 +93,10 @@ void warn_of_crossings(RunRecord& run) {
 }
 
 /// Has a closed body lost or gained more than a fiftieth of its volume, as a thin tube of long edges does?
-/// No if that is less than a hundredth of a natural length all over, as where two sheets enclose nearly
+/// No if that is less than .005 of a natural length all over, as where two sheets enclose nearly
 /// nothing.
 bool changes_volume(const RunRecord& run) {
-  constexpr double max_share = .02, min_lengths = .01;
+  constexpr double max_share = .02, min_lengths = .005;
   const double change = std::abs(run.deviation->volume_change.value_or(0));
   return change > max_share && change * std::abs(run.before.extent.volume.value_or(0)) >
                                    min_lengths * run.target.natural * run.before.extent.area;
@@ -576,6 +589,7 @@ void add_result_warnings(const Settings& s, const TriMesh& mesh, RunRecord& run)
   warn_of_walls(s, run);
   warn_of_crossings(run);
   warn_of_folds(run);
+  warn_of_overhangs(s, run);
   run.warnings.insert(run.warnings.end(), earlier.begin(), earlier.end());
   warn_of_rescue(run);
   warn_of_shortening(run);

@@ -273,6 +273,26 @@ TEST(Deviation, ThreadsChangeNothing) {
   EXPECT_EQ(single.boundary_to_reference, many.boundary_to_reference);
 }
 
+TEST(Deviation, WhereAllFacesLookToOneSideThoseThatLookAwayAreOverhangs) {
+  const auto step = [](double x, double) { return 10 * std::clamp(x - .5, 0., .05); };
+  for (const auto& [axis, sign] : {std::pair(2, 1.), std::pair(2, -1.), std::pair(0, 1.)}) {
+    test::Triangles terrain = test::grid(40, step);
+    test::Triangles leaning = terrain;
+    for (auto x : leaning.points.colwise())
+      if (std::abs(x[0] - .55) < 1e-9) x[0] -= .06;  // its step leans over by a degree, and lies close to where it was
+    const auto turn = [axis = axis, sign = sign](test::Triangles& t) {
+      t.points.row(2).swap(t.points.row(axis));
+      t.points *= sign;
+    };
+    turn(terrain);
+    turn(leaning);
+    EXPECT_EQ(measure(terrain, terrain).overhangs, 0);
+    EXPECT_EQ(measure(terrain, leaning).overhangs, 80);
+    EXPECT_EQ(measure(leaning, leaning).overhangs, 0) << "as in the reference";
+  }
+  EXPECT_EQ(measure(test::globe(20, 10), test::globe(8, 4)).overhangs, 0);
+}
+
 TEST(Deviation, FromAnEmptyReferenceIsInfinite) {
   const test::Triangles empty{Mat3X(3, 0), {}};
   const Deviation d = measure(empty, test::cube());

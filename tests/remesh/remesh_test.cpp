@@ -222,7 +222,6 @@ TEST_P(RemeshLaws, TrianglesGetBetterAndNoneFlips) {
   EXPECT_GT(min_angle(o.points, input_.faces), min_angle(input_.points, input_.faces) + 5);
   EXPECT_LT(deviation(input_, o.points), .5 * deviation(input_, input_.points));
   EXPECT_EQ(flipped_faces(input_, o.points), 0);
-  EXPECT_TRUE(o.result.folded_faces.empty());
   EXPECT_EQ(o.result.reason, StopReason::stalled);
 }
 
@@ -500,7 +499,6 @@ TEST(Remesh, FacesWithoutAreaAreOpened) {
   t.points.col(c) = .5 * (t.points.col(a) + t.points.col(b));
   ASSERT_LT(min_angle(t.points, t.faces), 1e-6);
   const Outcome o = remeshed(t);
-  EXPECT_TRUE(o.result.folded_faces.empty());
   EXPECT_GT(o.result.folded_before, 0);
   EXPECT_GT(min_angle(o.points, t.faces), 25);
   for (const Triangle& face : t.faces) EXPECT_GT(test::area_vector(o.points, face)[2], 0);
@@ -510,7 +508,6 @@ TEST(Remesh, VerticesInOnePlacePart) {
   test::Triangles t = test::grid(8, test::flat, .1);
   t.points.col(40) = t.points.col(41);
   const Outcome o = remeshed(t);
-  EXPECT_TRUE(o.result.folded_faces.empty());
   EXPECT_GT(min_angle(o.points, t.faces), 25);
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "hooke/geometry/triangle.h"
+#include "hooke/measure/deviation.h"
 #include "hooke/mesh/extent.h"
 #include "hooke/mesh/mesh.h"
 #include "hooke/remesh/options.h"
@@ -10,6 +11,7 @@
 #include "hooke/remesh/run.h"
 #include "hooke/remesh/run_options.h"
 #include "support/meshes.h"
+#include "support/solids.h"
 
 namespace hooke::test {
 
@@ -49,6 +51,14 @@ inline Outcome remeshed(const Triangles& t, double length, const RemeshOptions& 
 }
 inline Outcome remeshed(const Triangles& t, const RemeshOptions& options = {}) {
   return remeshed(t, natural(t), options);
+}
+
+/// Faces of the result that are turned over.
+inline std::vector<int> turned_faces(const Triangles& input, const TriMesh& result) {
+  const Mat3X points = vertex_points(result);
+  return measure_deviation(input.points, connect(input), points,
+                           make_adjacency(static_cast<int>(points.cols()), triangles_of(result)))
+      .flipped_faces;
 }
 
 }  // namespace hooke::test

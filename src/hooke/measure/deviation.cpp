@@ -406,6 +406,36 @@ Vec3 normal_at(const MeasuredSurface& reference, const Mat3X& normals, const Fac
   return weights[0] * normals.col(t[0]) + weights[1] * normals.col(t[1]) + weights[2] * normals.col(t[2]);
 }
 
+/// The coordinate axis, or its opposite, that all faces are turned to, as those of a terrain are to the sky,
+/// by less than 60 degrees on average; none if there is none.
+std::optional<Vec3> common_side(const MeasuredSurface& surface) {
+  constexpr double steepest = .5;  // cosine
+  if (surface.adjacency.faces.empty()) return std::nullopt;
+  Vec3 least = Vec3::Constant(std::numeric_limits<double>::infinity()), greatest = -least, sum = Vec3::Zero();
+  double area = 0;
+  for (const Triangle& t : surface.adjacency.faces) {
+    const Vec3 n = area_vector(surface.points, t);
+    least = least.cwiseMin(n);
+    greatest = greatest.cwiseMax(n);
+    sum += n;
+    area += n.norm();
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    if (std::abs(sum[axis]) < steepest * area) continue;
+    if (least[axis] > 0) return Vec3::Unit(axis);
+    if (greatest[axis] < 0) return -Vec3::Unit(axis);
+  }
+  return std::nullopt;
+}
+
+int count_overhangs(const MeasuredSurface& reference, const MeasuredSurface& result) {
+  const std::optional<Vec3> side = common_side(reference);
+  if (!side) return 0;
+  return static_cast<int>(std::ranges::count_if(result.adjacency.faces, [&](const Triangle& t) {
+    return area_vector(result.points, t).dot(*side) < 0;
+  }));
+}
+
 /// Does a face of the result, with this area vector, oppose the reference where that is closest, and its own
 /// shell too if that is another one there?
 bool opposes_own_shell(const MeasuredSurface& reference, const MeasuredSurface& result, const Face& face,
@@ -481,6 +511,7 @@ Deviation measure_deviation(const MeasuredSurface& reference, const MeasuredSurf
   timed(stopwatch, "normals", [&] {
     d.normal_deviation = measure_normal_deviation(reference, result, closest);
     find_opposing_faces(reference, result, closest, d);
+    d.overhangs = count_overhangs(reference, result);
   });
   d.diagonal = reference.extent.diagonal;
   d.area_change = relative_change(reference.extent.area, result.extent.area);

@@ -59,6 +59,9 @@ struct Deviation {
   /// Ids, ascending, of the flipped faces and of faces that oppose the closest face of the reference, which
   /// lie at folds of the reference itself.
   std::vector<int> opposing_faces;
+  /// Faces that look down where all of the reference look up, or to another side along a coordinate axis, by
+  /// less than 60 degrees on average, as those of a terrain do.
+  int overhangs = 0;
 
   std::optional<double> area_change;    // result / reference - 1
   std::optional<double> volume_change;  // result / reference - 1; empty unless both are closed

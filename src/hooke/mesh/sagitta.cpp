@@ -152,6 +152,7 @@ std::vector<double> face_unevenness(const Mat3X& points, const Adjacency& c) {
 
 bool is_faceted(const Mat3X& points, const Adjacency& c) {
   constexpr double flat_share = .85, uneven_share = .5, needle_share = .25;
+  constexpr double some_uneven = .3, most_needles = .75;
   constexpr std::size_t few_faces = 64;
   constexpr double sharp = .088;  // tan(40 degrees / 4) / 2
   const auto faces = static_cast<double>(c.faces.size());
@@ -180,9 +181,11 @@ bool is_faceted(const Mat3X& points, const Adjacency& c) {
     const auto has_sharp_edge = [&](const Triangle& edges) { return std::ranges::any_of(edges, is_sharp); };
     if (2 * std::ranges::count_if(c.face_edges, has_sharp_edge) >= std::ssize(c.faces)) return true;
   }
-  const auto unevens = std::ranges::count_if(unevenness, [&](double u) { return u > uneven; });
-  return !is_smooth && static_cast<double>(unevens) >= uneven_share * faces &&
-         share_of_needles(points, c, uneven) >= needle_share;
+  const auto unevens =
+      static_cast<double>(std::ranges::count_if(unevenness, [](double u) { return u > uneven; }));
+  if (is_smooth || unevens < some_uneven * faces) return false;
+  return share_of_needles(points, c, uneven) >=
+         (unevens < uneven_share * faces ? most_needles : needle_share);
 }
 
 }  // namespace hooke

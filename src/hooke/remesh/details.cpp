@@ -80,7 +80,8 @@ class DetailResolver {
   bool may_go_on() const {
     return maker_.adapts() && maker_.has_facets() && !maker_.has_tolerance() && !maker_.smooths_mask() &&
            !best_.is_interrupted() && best_.keeps_promises() &&
-           (best_.result.rescue == Rescue::none || best_.result.rescue == Rescue::closest);
+           (best_.result.rescue == Rescue::none || best_.result.rescue == Rescue::tips ||
+            best_.result.rescue == Rescue::closest);
   }
 
   /// Is the attempt, which replaces the best one then, closer to the input: on average, and by that share on

@@ -25,17 +25,16 @@ class PaperRun {
       : options_(options),
         observer_(observer),
         work_(mesh, std::move(memory_order), options.constraints, options.filter, retraction_of_paper),
-        to_input_(*work_.retraction),
         mesh_(build_mesh(*work_.start, *work_.adjacency)) {
     for (JunctionVertex& v : work_.vertices.constraints.junction_vertices) v.slides = false;
   }
 
   RemeshResult run(TriMesh& mesh) {
-    result_.folded_before = static_cast<int>(folded_faces().size());
+    const Guards guards(*work_.adjacency, work_.targets, {});
+    result_.folded_before = static_cast<int>(guards.folded_faces(work_.vertices.positions).size());
     result_.reason = StopReason::step_limit;
     for (outer_ = 1; !done_ && outer_ <= options_.max_outer; ++outer_) iterate();
     result_.projection = work_.projection_counts();
-    result_.folded_faces = folded_faces();
     result_.input_points = work_.copy_back(mesh);
     result_.memory_order = work_.memory_order();
     set_vertex_vectors(mesh, velocity_property,
@@ -113,22 +112,6 @@ class PaperRun {
     };
   }
 
-  /// Faces of the present points that are folded against the surface of the input; a field fitted to a folded
-  /// mesh would not show them.
-  std::vector<int> folded_faces() {
-    SurfacePositions seen = to_input_.project_all(work_.vertices.positions.points, input_hints(),
-                                                  work_.vertices.positions.segments);
-    seen.points = work_.vertices.positions.points;
-    const Guards guards(*work_.adjacency, work_.targets, {});
-    return faces_of_result(work_, guards.folded_faces(seen));
-  }
-
-  std::vector<int> input_hints() const {
-    std::vector<int> hints(work_.vertices.positions.hints.size());
-    std::iota(hints.begin(), hints.end(), 0);
-    return hints;
-  }
-
   void record(const EvolutionResult& evolved) {
     IterationRecord record = iteration_record(work_, "paper", evolved);
     record.outer = outer_;
@@ -151,8 +134,7 @@ class PaperRun {
   const PaperOptions& options_;
   const Observer& observer_;
   Workspace work_;
-  Retraction to_input_;  // to the field of the input, for folded_faces()
-  TriMesh mesh_;         // with the moving vertices
+  TriMesh mesh_;  // with the moving vertices
   RemeshResult result_;
   int outer_ = 0;
   bool done_ = false;

@@ -38,9 +38,8 @@ struct PaperOptions {
 /// time step; Newton projection } until max |l - L| < tolerance. With fixed connectivity that tolerance is
 /// mostly unreachable, so the run also ends when an outer iteration no longer lowers the energy of the
 /// strings (jammed if no time step passed the tests in it or strong forces are left, else stalled), and at
-/// the limits. There are no guards, no untangling and no angle optimisation: faces may fold, and
-/// RemeshResult::folded_faces lists those folded against the surface of the input. RemeshResult::bound and
-/// ::jam tell which test of [26] set the time steps.
+/// the limits. There are no guards, no untangling and no angle optimisation: faces may fold.
+/// RemeshResult::bound and ::jam tell which test of [26] set the time steps.
 ///
 /// What departs from the letter of the paper, and what happens otherwise, stands in src/README.md.
 ///

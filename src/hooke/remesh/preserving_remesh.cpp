@@ -295,15 +295,18 @@ class PreservingRemesh {
   void keep_narrow_parts(FilterKind filter, bool was_tried, Attempt& best) {
     RemeshOptions start = options_;  // with the tips and junctions that are held
     start.filter.kind = filter;
+    const auto keep = [&] {
+      options_ = start;
+      if (best.result.rescue == Rescue::closest) options_.filter.kind = FilterKind::closest;
+      keep_faces(best, best);
+    };
     const auto wrong = static_cast<double>(input_vertices_at_flaws(maker_, best).size());
     if (!was_tried && wrong <= very_few_vertices * input_.adjacency.vertex_count) {
-      options_ = start;
-      keep_faces(best, best);
+      keep();
       if (best.is_interrupted() || best.keeps_promises()) return;
     }
     shorten_lengths(start, best);
-    options_ = std::move(start);
-    if (!best.is_interrupted() && !best.keeps_promises()) keep_faces(best, best);
+    if (!best.is_interrupted() && !best.keeps_promises()) keep();
   }
 
   /// 0 if no limit of distances is asked for.

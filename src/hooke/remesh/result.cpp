@@ -57,12 +57,4 @@ CreaseCounts count_creases(const Adjacency& c, const Permutation& order,
   return counts;
 }
 
-std::vector<int> faces_of_result(const Workspace& work, const std::vector<int>& faces) {
-  std::vector<int> ids;
-  ids.reserve(faces.size());
-  for (int f : faces) ids.push_back(work.order.old_face[f]);
-  std::ranges::sort(ids);
-  return ids;
-}
-
 }  // namespace hooke

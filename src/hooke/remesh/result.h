@@ -76,7 +76,6 @@ struct RemeshResult {
   MaskSteps steps = MaskSteps::none;
   bool near_regular = false;  // in mode `fixed`, see keep_near_regular()
   int folded_before = 0;
-  std::vector<int> folded_faces;  // folded against the surface, ids of the result
   CreaseCounts creases;
   std::vector<Edge> crease_edges;            // ids of the result
   std::vector<Edge> input_creases;           // ids of the input
@@ -114,8 +113,5 @@ struct RemeshResult {
   FailedTests jam;    // the tests that no time step passed, if jammed (paper_remesh() only)
   std::vector<TimeStepRecord> time_steps;  // paper_remesh() only
 };
-
-/// The ids in the result of these faces of the workspace, ascending.
-std::vector<int> faces_of_result(const Workspace& work, const std::vector<int>& faces);
 
 }  // namespace hooke

@@ -354,7 +354,6 @@ std::vector<Edge> crease_edges_by_id(const Workspace& work) {
 /// What a result says of its vertices and creases, once they are where they stay.
 void describe(const Workspace& work, const RunOptions& options, RemeshResult& result) {
   const Guards guards(*work.adjacency, work.targets, options.limits);
-  result.folded_faces = faces_of_result(work, guards.folded_faces(work.vertices.positions));
   result.vertex_limits = vertex_limits_of_result(work, guards, options.chosen.constraints);
   result.creases = count_creases(*work.adjacency, work.order, result.vertex_limits);
   result.crease_edges = crease_edges_by_id(work);

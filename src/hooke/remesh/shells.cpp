@@ -107,7 +107,6 @@ TriMesh assemble(std::vector<Piece> pieces, RemeshResult& result) {
   std::vector<Triangle> faces;
   std::vector<MapEntry> map(count);
   std::vector<unsigned char> limits(count);
-  std::vector<int> folded;
   std::vector<Edge> creases;
   bool has_junctions = false;
   for (const Piece& piece : pieces) {
@@ -126,8 +125,6 @@ TriMesh assemble(std::vector<Piece> pieces, RemeshResult& result) {
     const std::vector<Triangle> triangles = triangles_of(piece.mesh);
     for (std::size_t f = 0; f < triangles.size(); ++f) {
       if (piece.id[triangles[f][0]] < 0) continue;
-      if (std::ranges::binary_search(piece.result.folded_faces, static_cast<int>(f)))
-        folded.push_back(static_cast<int>(faces.size()));
       faces.push_back(triangles[f]);
       for (int& v : faces.back()) v = piece.id[v];
     }
@@ -136,7 +133,6 @@ TriMesh assemble(std::vector<Piece> pieces, RemeshResult& result) {
   }
   result.map = std::move(map);
   result.vertex_limits = std::move(limits);
-  result.folded_faces = std::move(folded);
   result.crease_edges = std::move(creases);
   return build_result(points, faces, lengths, has_junctions ? first_copies(copies_of) : std::vector<int>(),
                       result);
@@ -280,8 +276,6 @@ std::vector<PartOfResult> parts_of_result(const std::vector<PartOfMesh>& parts, 
     const auto& [a, b, c] = triangles[f];
     if (part_of[a] < 0) continue;
     std::vector<Triangle>& faces = lists[part_of[a]].faces;
-    if (std::ranges::binary_search(result.folded_faces, static_cast<int>(f)))
-      results[part_of[a]].result.folded_faces.push_back(static_cast<int>(faces.size()));
     faces.push_back({id[a], id[b], id[c]});
   }
   for (const auto& [a, b] : result.crease_edges)

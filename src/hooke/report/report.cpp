@@ -116,6 +116,7 @@ Json to_json(const Deviation& d) {
   json["area_change"] = number(d.area_change);
   json["volume_change"] = number(d.volume_change);
   json["flipped_faces"] = d.flipped_faces.size();
+  json["overhangs"] = d.overhangs;
   json["boundary_distance"] = {{"to_input", number(d.boundary_to_reference)},
                                {"from_input", number(d.boundary_from_reference)}};
   return json;
@@ -172,7 +173,7 @@ Json projection_json(const ProjectionCounts& counts) {
 
 Json geometry_json(const RunRecord& run) {
   Json j = to_json(*run.deviation);
-  j["folded_faces"] = folded_faces(run);
+  j["folded_faces"] = run.deviation->opposing_faces;
   return j;
 }
 
@@ -284,12 +285,6 @@ std::string status_of(StopReason reason) {
       return "interrupted";
   }
   return "";
-}
-
-std::vector<int> folded_faces(const RunRecord& run) {
-  std::vector<int> ids;
-  std::ranges::set_union(run.result->folded_faces, run.deviation->opposing_faces, std::back_inserter(ids));
-  return ids;
 }
 
 Json report_json(const RunRecord& run) {

@@ -96,11 +96,6 @@ struct RunRecord {
 /// "converged", "stalled", "jammed", "iteration_limit" or "interrupted".
 std::string status_of(StopReason reason);
 
-/// Ids, ascending, of the result's folded faces: those that face against the input surface by the measure of
-/// the guards or of the deviation, folds of the input included. Pre-condition: the run has a result and a
-/// deviation.
-std::vector<int> folded_faces(const RunRecord& run);
-
 /// The whole report, with every key of report_keys.h.
 nlohmann::ordered_json report_json(const RunRecord& run);
 

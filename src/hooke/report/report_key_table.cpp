@@ -349,6 +349,8 @@ constexpr Row geometry[] = {
     {"geometry.volume_change", or_null(number), ratio, nearer_zero,
      "volume over that of the input, - 1; null unless both are closed"},
     {"geometry.flipped_faces", integer, none, lower, "faces turned over"},
+    {"geometry.overhangs", integer, none, lower,
+     "faces that look down where all of the input look up, or so along another axis, as in a terrain"},
     {"geometry.boundary_distance", object, length, neither, "between the boundaries"},
     {"geometry.boundary_distance.to_input", or_null(number), length, lower,
      "from the result's boundary to the input's; null unless both have one"},
