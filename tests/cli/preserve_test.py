@@ -131,8 +131,9 @@ class Preserve(CommandTest):
         lines = ["v %r %r %r" % tuple(size * c / n for c in place) for place in ids] + ["f %d %d %d %d" % tuple(f) for f in faces]
         text = "\n".join(lines) + "\n"
         self.write("box.obj", text)
-        self.run_command("box.obj", "-o", "out.obj", "-q")
+        report = self.report("box.obj", "-o", "out.obj", "-q")
         self.assertEqual((self.folder / "out.obj").read_text(), text)
+        self.assertEqual(report["geometry"]["displacement"]["max"], 0)
 
     def test_of_an_artists_file_only_numbers_of_v_and_vn_change(self):
         data = artists_obj()

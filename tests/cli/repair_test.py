@@ -254,6 +254,8 @@ class Repair(CommandTest):
                 (("heat",), lambda x, y, side: (nan if y < .6 else x + side,), False),
                 (("heat",), lambda x, y, side: (.1 * (x + side) + side * 1e-17,), False),
                 (("id",), lambda x, y, side: (1e6 + (x < 1) * side,), True),
+                (("id",), lambda x, y, side: (-2147483648 if x == y == 0 else 3 + side,), True),
+                (("heat",), lambda x, y, side: (3.4e38 if x == y == 0 else 20 + 70.5 * side,), True),
                 (("s", "t"), lambda x, y, side: ((x + side) * (1 + side * 1e-9), y), False),
                 (("t",), lambda x, y, side: (x + 2 * side,), True)):
             self.write_cut(names, values_of)

@@ -80,7 +80,7 @@ TEST(QualityJson, GeometryTellsDistancesAndChanges) {
   const Json json = to_json(measure_deviation(t.points, c, larger.points, c));
   EXPECT_EQ(keys(json), (std::vector<std::string>{"displacement", "distance_to_input", "distance_from_input",
                                                   "normal_deviation", "area_change", "volume_change",
-                                                  "flipped_faces", "boundary_distance"}));
+                                                  "flipped_faces", "overhangs", "boundary_distance"}));
   EXPECT_NEAR(json["distance_to_input"]["max_over_diagonal"].get<double>(), 1, 1e-15);
   EXPECT_EQ(json["volume_change"], 7.);
   EXPECT_TRUE(json["boundary_distance"]["to_input"].is_null());

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <limits>
 #include <utility>
 
 #include "hooke/core/error.h"
@@ -65,18 +64,14 @@ CornerValues values_of_triangles(PolygonCorners& of_polygons, const char* what, 
   return result;
 }
 
-/// The old vertices that were merged with one of another value, beyond the tolerance, a share of the range of
-/// all values. What is no number is equal.
-std::size_t count_merged_with_others(const MeshOrigin& origin, const VertexChannel& channel,
-                                     double tolerance) {
-  double least = std::numeric_limits<double>::infinity(), greatest = -least;
-  for (const double value : channel.values) {
-    if (!std::isfinite(value)) continue;
-    least = std::min(least, value);
-    greatest = std::max(greatest, value);
-  }
+/// The old vertices that were merged with one of another value: what is no number is equal, whole numbers are
+/// compared exactly, others up to this share of the greater one, or of `unit` if that is more.
+std::size_t count_merged_with_others(const MeshOrigin& origin, const VertexChannel& channel, double share,
+                                     double unit) {
   const auto are_equal = [&](double a, double b) {
-    return a == b || (std::isnan(a) && std::isnan(b)) || std::abs(a - b) <= tolerance * (greatest - least);
+    if (a == b || (std::isnan(a) && std::isnan(b))) return true;
+    if (a == std::round(a) && b == std::round(b)) return false;
+    return std::abs(a - b) <= share * std::max({std::abs(a), std::abs(b), unit});
   };
   std::size_t count = 0;
   for (std::size_t v = 0; v < origin.merged.size(); ++v)
@@ -95,8 +90,8 @@ void keep_merged_values(const MeshOrigin& origin, const std::vector<Triangle>& t
   std::size_t most = 0, torn = 0;
   for (const VertexChannel& channel : file.vertex_data) {
     const bool is_texture = std::ranges::find(texture, &channel) != texture.end();
-    const std::size_t count =
-        count_merged_with_others(origin, channel, is_texture ? texture_rounding : rounding);
+    const std::size_t count = is_texture ? count_merged_with_others(origin, channel, texture_rounding, 1)
+                                         : count_merged_with_others(origin, channel, rounding, 0);
     if (is_texture) {
       torn = std::max(torn, count);
     } else if (count > 0 && std::ranges::find(normal_names, channel.name) == normal_names.end()) {
@@ -113,8 +108,8 @@ void keep_merged_values(const MeshOrigin& origin, const std::vector<Triangle>& t
   file.content.no_obj.push_back(
       {"texture_seams",
        fmt::format(
-           "{}: not kept in the output: texture coordinates of {} vertices that were merged with ones "
-           "of others, which stay; OBJ holds both",
+           "{}: not kept in the output: the texture coordinates of {} vertices that were merged with others, "
+           "whose coordinates they got; OBJ holds both",
            file.name, torn)});
   CornerValues& of_corners = corner_data.texture;
   of_corners = {Mat3X::Zero(3, static_cast<Eigen::Index>(origin.merged.size())), 0, triangles};

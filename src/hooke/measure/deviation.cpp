@@ -326,6 +326,13 @@ class TurnedFaces {
     return like.squared_distance > limit * limit;
   }
 
+  /// Does its centre lie on a face of the reference that faces the same way, as where bodies share a wall?
+  bool lies_on_face_like(const Face& face, const Vec3& n) const {
+    constexpr double rounding = 1e-12;  // of the diagonal
+    const double limit = rounding * reference_.extent.diagonal;
+    return closest_like(middle_of(face), n).squared_distance <= limit * limit;
+  }
+
  private:
   ClosestPoint closest_like(const Vec3& x, const Vec3& n) const {
     return closest_like(x, n, reference_.tree);
@@ -463,7 +470,8 @@ void find_opposing_faces(const MeasuredSurface& reference, const MeasuredSurface
       const Face& there = face_at(reference, closest[k]);
       flipped[f] = n.dot(normal_at(reference, normals, there, closest[k])) < 0 &&
                    turned.faces_no_like(faces[k], n, closest[k]);
-      opposing[f] = flipped[f] || opposes_own_shell(reference, result, faces[k], n, closest[k]);
+      opposing[f] = flipped[f] || (opposes_own_shell(reference, result, faces[k], n, closest[k]) &&
+                                   !turned.lies_on_face_like(faces[k], n));
     }
   });
   for (size_t f = 0; f < opposing.size(); ++f) {

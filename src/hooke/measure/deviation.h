@@ -57,7 +57,7 @@ struct Deviation {
   /// reference has one.
   std::vector<int> flipped_faces;
   /// Ids, ascending, of the flipped faces and of faces that oppose the closest face of the reference, which
-  /// lie at folds of the reference itself.
+  /// lie at folds of the reference itself, but on no face of it that faces the same way.
   std::vector<int> opposing_faces;
   /// Faces that look down where all of the reference look up, or to another side along a coordinate axis, by
   /// less than 60 degrees on average, as those of a terrain do.

@@ -64,8 +64,13 @@ void leave_what_hardly_moved(const AttemptMaker& maker, Attempt& run) {
   const double rounding = 4 * std::numeric_limits<double>::epsilon() * maker.input().extent.diagonal;
   auto points = vertex_points(run.mesh);
   const Mat3X before = maker.as_written(vertex_points(maker.mesh()));
-  for (Eigen::Index v = 0; v < points.cols(); ++v)
-    if ((points.col(v) - before.col(v)).norm() <= rounding) points.col(v) = before.col(v);
+  bool is_moved = false;
+  for (Eigen::Index v = 0; v < points.cols(); ++v) {
+    if (points.col(v) == before.col(v) || !((points.col(v) - before.col(v)).norm() <= rounding)) continue;
+    points.col(v) = before.col(v);
+    is_moved = true;
+  }
+  if (is_moved) maker.judge(run);
 }
 
 }  // namespace hooke
