@@ -127,19 +127,17 @@ void warn_of_distance(const Settings& s, RunRecord& run) {
 
 /// Warns if bends of the result are sharp where the input is smooth, unless so few of its edges are that it
 /// hardly matters.
-void warn_of_bends(const Settings& s, RunRecord& run) {
+void warn_of_bends(RunRecord& run) {
   constexpr double few = .0025, at_least = 4;  // of all edges
-  const bool is_sized = s.sizing.kind == SizingSource::Kind::curvature;
   const RemeshResult& result = *run.result;
   if (result.sharp_bends <= std::max(at_least, few * 1.5 * run.after->topology.faces)) return;
   run.warnings.push_back(
       {"sharp_bends",
        fmt::format("{}: {} edges turn by more than 60 degrees, up to {:.0f} near {}, where "
-                   "{} bends less: narrow or sharply curved parts are coarser there; {}a smaller "
-                   "--length follows them",
+                   "{} bends less: narrow or sharply curved parts are coarser there; a smaller --length "
+                   "follows them",
                    run.output->path, result.sharp_bends, result.sharpest_bend,
-                   place(result.sharpest_place, run), run.input.path,
-                   is_sized ? "" : "--sizing curvature, which makes edges shorter there, or ")});
+                   place(result.sharpest_place, run), run.input.path)});
 }
 
 /// Warns if walls or gaps are not as thick as they were, unless it is at so few places that it hardly
@@ -156,7 +154,6 @@ void warn_of_walls(const Settings& s, RunRecord& run) {
     if (s.remesh.connectivity == ConnectivityMode::adapt) {
       if (distance < allowed && distance >= in_reach * run.deviation->diagonal)
         options.push_back(fmt::format("--max-distance {:.2g}", distance));
-      if (s.sizing.kind != SizingSource::Kind::curvature) options.emplace_back("--sizing curvature");
       options.emplace_back("a smaller --length");
     } else {
       if (s.remesh.filter.kind != FilterKind::closest) options.emplace_back("--filter closest");
@@ -585,7 +582,7 @@ void add_result_warnings(const Settings& s, const TriMesh& mesh, RunRecord& run)
   warn_of_promises(run);
   warn_of_time(s, run);
   warn_of_distance(s, run);
-  warn_of_bends(s, run);
+  warn_of_bends(run);
   warn_of_walls(s, run);
   warn_of_crossings(run);
   warn_of_folds(run);

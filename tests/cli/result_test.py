@@ -152,9 +152,9 @@ class Result(CommandTest):
         write_off(self.folder / "pipe.off", points, faces)
         wall = r"walls or gaps are not as thick as in pipe\.off: where one is 0\.2, near .*, a side is 0\.\d+ off; "
         for length, options, advice in (
-                ("6", (), "--max-distance 0.02, --sizing curvature or a smaller --length"),
+                ("6", (), "--max-distance 0.02 or a smaller --length"),
                 ("6", ("--sizing", "curvature"), "--max-distance 0.02 or a smaller --length"),
-                ("6", ("--max-distance", ".5"), "--max-distance 0.02, --sizing curvature or a smaller --length"),
+                ("6", ("--max-distance", ".5"), "--max-distance 0.02 or a smaller --length"),
                 ("6", ("--max-distance", ".02"), None),
                 ("1.3", (), None)):
             with self.subTest(length=length, options=options):

@@ -218,10 +218,11 @@ TEST(Repair, DuplicatesAndRepeatedVerticesAreDropped) {
   t.faces.insert(t.faces.begin() + 5, {7, 7, 2});
   t.faces.push_back({faces[9][0], faces[9][2], faces[9][1]});
   const Repaired r = repaired(t);
-  EXPECT_EQ(codes(r), (Codes{"faces_dropped", "duplicate_faces_dropped"}));
+  EXPECT_EQ(codes(r), (Codes{"faces_dropped", "duplicate_faces_dropped", "opposite_faces_dropped"}));
   EXPECT_EQ(r.triangles, faces);
   EXPECT_EQ(r.changes[0].message, "m: 1 faces dropped that use a vertex twice: faces 5");
-  EXPECT_EQ(r.changes[1].message, "m: 2 faces dropped whose vertices another face has: faces 81, 82");
+  EXPECT_EQ(r.changes[1].message, "m: 1 faces dropped whose vertices another face has: faces 81");
+  EXPECT_EQ(r.changes[2].message, "m: 1 faces dropped that lie back to back with another: faces 82");
   EXPECT_EQ(r.origin.face[5], 6);
 }
 

@@ -19,6 +19,7 @@
 #include "hooke/mesh/hole_filling.h"
 #include "hooke/mesh/sheets.h"
 #include "hooke/mesh/tiny_edges.h"
+#include "hooke/mesh/touching_solids.h"
 #include "hooke/mesh/vertex_welding.h"
 
 namespace hooke {
@@ -27,6 +28,12 @@ namespace {
 Triangle sorted(Triangle t) {
   std::ranges::sort(t);
   return t;
+}
+
+/// Have the triangles the same corners in the same direction?
+bool are_same(const Triangle& t, const Triangle& other) {
+  const auto& [a, b, c] = t;
+  return other == t || other == Triangle{b, c, a} || other == Triangle{c, a, b};
 }
 
 /// The components of a manifold: of each face the smallest face that it hangs together with.
@@ -71,17 +78,6 @@ Boundary find_boundary(const std::vector<Triangle>& triangles, size_t vertices) 
       b.face[from] = static_cast<int>(f);
     }
   return b;
-}
-
-/// The component of each face, -1 if it has a boundary.
-std::vector<int> bodies_of(const std::vector<Triangle>& triangles, size_t vertices) {
-  std::vector<int> component = components_of(triangles, vertices);
-  std::vector<char> is_open(component.size(), 0);
-  for (const int f : find_boundary(triangles, vertices).face)
-    if (f >= 0) is_open[component[f]] = 1;
-  for (int& c : component)
-    if (is_open[c]) c = -1;
-  return component;
 }
 
 double area_of(const Mat3X& points, const Triangle& t) {
@@ -208,7 +204,9 @@ class Repair {
 
   void note_unwelded() {
     unwelded_.resize(r_.origin.face.empty() ? 0 : r_.origin.face.back() + 1);
-    for (size_t f = 0; f < r_.triangles.size(); ++f) unwelded_[r_.origin.face[f]] = r_.triangles[f];
+    const std::vector<int> in_place = weld_vertices(r_.points, std::vector(r_.points.cols(), 0.));
+    for (size_t f = 0; f < r_.triangles.size(); ++f)
+      for (size_t k = 0; k < 3; ++k) unwelded_[r_.origin.face[f]][k] = in_place[r_.triangles[f][k]];
   }
 
   void weld_boundaries() { merge(reach_of_boundary(r_.points, r_.triangles)); }
@@ -264,42 +262,66 @@ class Repair {
   }
 
   void drop_flaps_and_duplicates() {
-    std::vector<std::vector<int>> groups = faces_of_same_vertices(r_.triangles);
-    if (groups.empty()) return;
+    if (faces_of_same_vertices(r_.triangles).empty()) return;
     // With junctions, flaps may be two walls that come together, of which one stays.
     if (!options_.keep_junctions) {
-      if (drop_flaps(groups)) groups = faces_of_same_vertices(r_.triangles);
-      if (separate_solids()) return;
+      drop_duplicates("duplicate_faces_dropped", "faces dropped whose vertices another face has",
+                      [&](int f, int g) { return are_same(r_.triangles[f], r_.triangles[g]); });
+      drop_flaps(faces_of_same_vertices(r_.triangles));
+      separate_solids();
     }
+    const auto are_alike = [](int, int) { return true; };
+    if (options_.keep_junctions)
+      drop_duplicates("duplicate_faces_dropped", "faces dropped whose vertices another face has", are_alike);
+    else
+      drop_duplicates("opposite_faces_dropped", "faces dropped that lie back to back with another",
+                      are_alike);
+  }
+
+  /// Of faces of the same vertices those that are like an earlier one.
+  template <typename AreAlike>
+  void drop_duplicates(const char* code, const char* what, const AreAlike& are_alike) {
     std::vector<char> is_duplicate(r_.triangles.size(), 0);
-    for (const std::vector<int>& group : groups)
-      for (size_t i = 1; i < group.size(); ++i) is_duplicate[group[i]] = 1;
-    drop_faces("duplicate_faces_dropped", "faces dropped whose vertices another face has",
-               [&](int f) { return is_duplicate[f] != 0; });
+    for (const std::vector<int>& group : faces_of_same_vertices(r_.triangles))
+      for (size_t i = 1; i < group.size(); ++i)
+        is_duplicate[group[i]] = std::any_of(group.begin(), group.begin() + static_cast<std::ptrdiff_t>(i),
+                                             [&](int earlier) { return are_alike(group[i], earlier); });
+    drop_faces(code, what, [&](int f) { return is_duplicate[f] != 0; });
   }
 
   /// Of faces back to back those with nothing between them, because they are too thin, or because they
   /// bounded one body before it was welded: others may be the wall between two bodies, or the sides of a
-  /// sheet. Returns whether there are any.
-  bool drop_flaps(const std::vector<std::vector<int>>& groups) {
+  /// sheet.
+  void drop_flaps(const std::vector<std::vector<int>>& groups) {
     constexpr double rounding = 10 * rounding_share;
-    const double thin = rounding * box_of_faces(r_.points, r_.triangles).diagonal().norm();
     std::vector<int> bodies;
     const auto were_one_body = [&](int f, int g) {
       if (unwelded_.empty()) return false;
-      if (bodies.empty()) bodies = bodies_of(unwelded_, r_.points.cols());
+      if (bodies.empty()) bodies = closed_bodies(unwelded_);
       const int first = r_.origin.face[f], second = r_.origin.face[g];
       return bodies[first] >= 0 && bodies[first] == bodies[second] &&
              !std::ranges::is_permutation(unwelded_[first], unwelded_[second]);
     };
     std::vector<std::array<int, 2>> pairs = faces_back_to_back(r_.triangles, groups);
+    const std::vector<double> sizes = sizes_of_components();
     std::erase_if(pairs, [&](const std::array<int, 2>& pair) {
-      return height_of(r_.points, r_.triangles[pair[0]]) > thin && !were_one_body(pair[0], pair[1]);
+      return height_of(r_.points, r_.triangles[pair[0]]) > rounding * sizes[pair[0]] &&
+             !were_one_body(pair[0], pair[1]);
     });
     const std::vector<int> flaps = find_flaps(r_.triangles, pairs);
     drop_faces("flaps_dropped", "faces dropped that lie back to back with nothing between them",
                [&](int f) { return std::ranges::binary_search(flaps, f); });
-    return !flaps.empty();
+  }
+
+  /// The diagonal of the box of the component of each face.
+  std::vector<double> sizes_of_components() const {
+    const std::vector<int> component = components_of(r_.triangles, r_.points.cols());
+    std::vector<Eigen::AlignedBox3d> boxes(component.size());
+    for (size_t f = 0; f < component.size(); ++f)
+      for (const int v : r_.triangles[f]) boxes[component[f]].extend(Vec3(r_.points.col(v)));
+    std::vector<double> sizes;
+    for (const int c : component) sizes.push_back(boxes[c].diagonal().norm());
+    return sizes;
   }
 
   void drop_small_components() {
@@ -368,14 +390,10 @@ class Repair {
   }
 
   /// Is the mesh an oriented manifold but for what can be kept?
-  bool has_junctions(std::optional<ProblemKind> besides = {}) const {
+  bool has_junctions() const {
     bool found = false;
     for (const Problem& problem : find_problems(r_.points, r_.triangles)) {
       if (is_acceptable(problem.kind)) continue;
-      if (problem.kind == besides) {
-        found = true;
-        continue;
-      }
       const bool is_one_sided = problem.kind == ProblemKind::inconsistent_orientation && options_.repair;
       if (!is_junction(problem.kind) && !is_one_sided) return false;
       found = true;
@@ -390,28 +408,14 @@ class Repair {
     r_.origin.joined = std::move(sheets.source);
   }
 
-  /// Cuts solids apart that touch, where there is but one way to: they are closed, look outward, and their
-  /// faces alternate around each edge. Returns whether it has.
-  bool separate_solids() {
-    if (!has_junctions(ProblemKind::duplicate_face)) return false;
-    Sheets sheets = make_sheets(r_.points, r_.triangles);
-    if (!sheets.flipped_faces.empty() || !sheets.opened_edges.empty() || !sheets.guessed_edges.empty())
-      return false;
-    Mat3X points(3, static_cast<Eigen::Index>(sheets.source.size()));
-    for (Eigen::Index v = 0; v < points.cols(); ++v)
-      points.col(v) = r_.points.col(sheets.source[static_cast<std::size_t>(v)]);
-    if (std::ranges::any_of(find_problems(points, sheets.triangles),
-                            [](const Problem& problem) { return !is_acceptable(problem.kind); }))
-      return false;
-    const Extent extent =
-        measure_extent(points, make_adjacency(static_cast<int>(points.cols()), sheets.triangles));
-    if (!extent.volume || !(*extent.volume > 0)) return false;
-    tell("edges_cut", sheets.cut_edges.size(), "edges in which solids touch taken apart",
-         edge_places(sheets.cut_edges));
-    tell("vertices_split", sheets.split_vertices.size(), "vertices in which solids touch taken apart",
-         vertex_places(sheets.split_vertices));
-    replace_by(sheets);
-    return true;
+  void separate_solids() {
+    std::optional<Sheets> sheets = separate_touching_solids(r_.points, r_.triangles);
+    if (!sheets) return;
+    tell("edges_cut", sheets->cut_edges.size(), "edges in which solids touch taken apart",
+         edge_places(sheets->cut_edges));
+    tell("vertices_split", sheets->split_vertices.size(), "vertices in which solids touch taken apart",
+         vertex_places(sheets->split_vertices));
+    replace_by(*sheets);
   }
 
   void make_manifold() {
@@ -573,7 +577,7 @@ class Repair {
   const RepairOptions& options_;
   const MeshSource& source_;
   Repaired r_;
-  std::vector<Triangle> unwelded_;  // by old face, as they were before all vertices were welded
+  std::vector<Triangle> unwelded_;  // by old face, as they were before more than places were welded
 };
 
 }  // namespace

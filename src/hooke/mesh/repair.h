@@ -23,7 +23,7 @@ struct RepairOptions {
   int fill_holes = 0;           // with `repair`: fill holes of at most so many edges
   bool collapse = false;        // collapse the edges without length of an oriented manifold
   bool drop_strays = false;     // drop faces that use a vertex twice, and all vertices in no face
-  bool separate = false;        // give solids that only touch vertices of their own, if nothing else is wrong
+  bool separate = false;        // give solids that only touch vertices of their own
   bool keep_junctions = false;  // sheets that meet in edges and vertices are known to be one, see junctions.h
 
   bool any() const {
@@ -49,22 +49,20 @@ struct Repaired {
 };
 
 /// With `drop_strays` faces that use a vertex twice are dropped, and in the end the vertices in no face. With
-/// `separate` solids that touch in edges and vertices are cut apart, if the mesh is an oriented manifold but
-/// for that, closed, and looks outward, and faces alternate in their direction around each edge; of faces
-/// back to back each is the wall of one of them. With `weld`, vertices closer than that are merged, and faces
-/// that lose a corner by it are dropped. With `repair`:
+/// `separate` solids that touch are taken apart, see touching_solids.h. With `weld`, vertices closer than
+/// that are merged, and faces that lose a corner by it are dropped. With `repair`:
 /// - vertices at boundaries are merged where they are within welding_share of the shortest boundary edge
 /// there;
 /// - faces that use a vertex twice are dropped; so are flaps (see flaps.h) that are no thicker than rounding,
-/// or that welding made of one closed body, but with `keep_junctions`, where they may be two walls;
-/// - solids that touch are cut apart as with `separate`, but with `keep_junctions`; else the second of faces
-/// with the same vertices is dropped;
+/// or that welding made of one closed body, and solids that touch are taken apart as with `separate`; neither
+/// if `keep_junctions` is set, where faces back to back may be two walls that come together;
+/// - of faces with the same vertices that are left all but the first are dropped;
 /// - surfaces are oriented, cut and split as make_sheets() does;
 /// - components that are too small are dropped, holes that are small enough are filled;
 /// - closed components that are inside out and in no other are turned outward;
 /// - vertices in no face are dropped.
 /// With `collapse`, after these, edges without length are collapsed, as those of marching cubes where a value
-/// at a grid point is that of the level, and those of cuts through what lies a rounding beside the cut; not
+/// at a grid point is that of the level, and of cuts that miss a vertex by a rounding; not
 /// where that would change the topology or turn a face over, between the two sides of a foil, nor in a mesh
 /// that is no oriented manifold. No vertex moves by more than rounding_share.
 /// With `keep_junctions` edges of three faces and more and vertices in which parts only touch stay: they are

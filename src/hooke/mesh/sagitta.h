@@ -31,11 +31,12 @@ std::vector<double> face_unevenness(const Mat3X& points, const Adjacency& adjace
 
 /// Are the facets of the mesh meant, as those of CAD parts: do .85 of its faces lie in a plane with a
 /// neighbour; or have such faces .75 of the area, and faces with an edge three times as long as others at its
-/// corners .4; or are half of the faces so uneven, and needles a quarter of the area, or .3 of them and needles
-/// .75, for the slivers of marching cubes or tetrahedra are many, but small; or have half of fewer than 64 an
-/// edge sharper than 40 degrees? Where no edge is as sharp, as on a torus of quadrilaterals, it takes three
-/// faces in a plane, or the area in faces 8 times as large as most, as on a part whose edges are all rounded,
-/// and long edges do not count. Flat patches of a smooth surface never count, see mesh/smooth_patches.h.
+/// corners .4; or are half of the faces so uneven, and needles a quarter of the area, or .3 of them and
+/// needles .75, for the slivers of marching cubes or tetrahedra are many, but small; or have half of fewer
+/// than 64 an edge sharper than 40 degrees? Where no edge is as sharp, as on a torus of quadrilaterals, it
+/// takes three faces in a plane, or the area in faces 8 times as large as most, as on a part whose edges are
+/// all rounded, and long edges do not count. Flat patches of a smooth surface never count, see
+/// mesh/smooth_patches.h.
 bool is_faceted(const Mat3X& points, const Adjacency& adjacency);
 
 }  // namespace hooke

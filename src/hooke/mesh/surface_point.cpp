@@ -42,8 +42,8 @@ int next_face_around(const Adjacency& adjacency, int vertex, int face, bool forw
 }
 
 /// The closest point on the faces around a hub: of some of them, and of those next
-/// to the closest of these as long as they get closer within a few steps. All of them if the hub itself is
-/// the closest of some, as from there no way leads closer.
+/// to the closest of these as long as they get closer within a few steps. Of all if the hub itself is closest
+/// on these, as from there no way leads closer.
 ClosestPoint closest_at_hub(const Mat3X& points, const Adjacency& adjacency, const Vec3& x, int hub) {
   const std::span<const int> faces = adjacency.vertex_faces[hub];
   const auto stride = static_cast<std::size_t>(std::sqrt(static_cast<double>(faces.size())));

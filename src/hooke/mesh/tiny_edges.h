@@ -1,5 +1,5 @@
 // Edges without length, as of marching cubes where a value at a grid point is that of the level, and of cuts
-// through what lies a rounding beside the cut.
+// that miss a vertex by a rounding.
 #pragma once
 
 #include <vector>
