@@ -279,7 +279,8 @@ TEST(Deviation, WhereAllFacesLookToOneSideThoseThatLookAwayAreOverhangs) {
     test::Triangles terrain = test::grid(40, step);
     test::Triangles leaning = terrain;
     for (auto x : leaning.points.colwise())
-      if (std::abs(x[0] - .55) < 1e-9) x[0] -= .06;  // its step leans over by a degree, and lies close to where it was
+      if (std::abs(x[0] - .55) < 1e-9)
+        x[0] -= .06;  // its step leans over by a degree, and lies close to where it was
     const auto turn = [axis = axis, sign = sign](test::Triangles& t) {
       t.points.row(2).swap(t.points.row(axis));
       t.points *= sign;
